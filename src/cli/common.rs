@@ -5,7 +5,8 @@ use super::streams::{complain, complain_lines, remark};
 use crate::diag::Code;
 use crate::dialect::{Control, Entry, Profile, registry};
 use crate::library::{
-    Detected, Files, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like,
+    Detected, Files, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like, of_library,
+    settled,
 };
 use crate::verify::Effort;
 use std::path::{Path, PathBuf};
@@ -101,6 +102,31 @@ pub fn meeting(source: Control, target: Control) -> Result<(Control, Control), u
     Control::meeting(source, target).map_err(complain_lines)
 }
 
+/// Both machines of a conversion, with the kind of the library's programs where their profiles leave it open; why, if that is
+/// a lathe because of its programs.
+pub fn kinds(
+    inputs: &[Input],
+    (source, target): (Control, Control),
+) -> Result<(Control, Control, Option<String>), u8> {
+    let (source, target, taken) = settled(inputs, source, target).map_err(complain_lines)?;
+    Ok((source, target, taken.map(|taken| taken.to_string())))
+}
+
+/// As [`kinds`], and says why.
+pub fn kinds_told(inputs: &[Input], controls: (Control, Control)) -> Result<(Control, Control), u8> {
+    let (source, target, taken) = kinds(inputs, controls)?;
+    taken.iter().for_each(remark);
+    Ok((source, target))
+}
+
+/// The control that programs are read by, with the kind of machine that they show where its profile leaves it open. Why is
+/// said.
+pub fn kind_told(inputs: &[Input], control: Control) -> Control {
+    let (control, taken) = of_library(inputs, control);
+    taken.iter().for_each(remark);
+    control
+}
+
 /// A machine profile, with all that it extends.
 pub fn profile(path: &Path) -> Result<Option<Profile>, u8> {
     Profile::load(path).map(Some).map_err(|why| complain_lines(why.lines()))
@@ -124,11 +150,8 @@ pub fn names() -> String {
 /// inputs, and that machine's profile.
 pub fn project_machine(inputs: &[Input]) -> Result<Option<(String, Option<PathBuf>)>, u8> {
     let Some(project) = Project::find(Path::new(".")).map_err(complain)? else { return Ok(None) };
-    let real = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let holds = |folder: &Path| inputs.iter().all(|input| real(&input.path).starts_with(folder));
-    let libraries = project.libraries.values();
-    let library = libraries.into_iter().find(|library| holds(&real(&project.root.join(&library.path))));
-    let machine = library.and_then(|library| project.machines.get(&library.machine));
+    let library = project.libraries_of(inputs.iter().map(|input| input.path.as_path())).next();
+    let machine = library.and_then(|(_, library)| project.machines.get(&library.machine));
     Ok(machine.map(|machine| {
         (machine.dialect.clone(), machine.profile.as_ref().map(|profile| project.root.join(profile)))
     }))

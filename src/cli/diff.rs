@@ -162,7 +162,8 @@ fn compare(
     let from = dialect_of(arguments.from.as_deref(), known)?;
     let to = arguments.to.clone().unwrap_or_else(|| from.clone());
     let own = own_profile(arguments.from.as_deref(), known)?;
-    let (source, target) = controls(&from, &to, &arguments.machine, own.as_deref())?;
+    let (source, target) =
+        common::kinds_told(known, controls(&from, &to, &arguments.machine, own.as_deref())?)?;
     let mut notes: Vec<String> = doubt(&from, &ours).into_iter().chain(doubt(&to, &theirs)).collect();
     notes.dedup();
     let map = if source.is_same_machine(&target) {

@@ -1,7 +1,7 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
 use super::common::{
-    control, controls, dialect_of, doubt, endings, meeting, names, own_profile, profile_files, read,
+    control, controls, dialect_of, doubt, endings, kinds, meeting, names, own_profile, profile_files, read,
     read_all, read_found,
 };
 use super::reviews::way_of;
@@ -32,6 +32,8 @@ pub struct Job {
     pub lock: Lock,
     /// What was said of the programs as a whole.
     pub notes: Vec<String>,
+    /// Why the library is taken to be a lathe's, where no profile says it.
+    taken: Option<String>,
     /// The library and the machine, by their names in the project file; none if it is not of one.
     pub way: Option<[String; 2]>,
     /// True if all of that library is here, as the project file has it.
@@ -147,6 +149,8 @@ pub fn jobs(wish: &Wish<'_>) -> Result<(Vec<Job>, Files), u8> {
         }
     }
     apart(&jobs)?;
+    // It is one library, wherever it goes.
+    jobs.iter().filter_map(|job| job.taken.as_ref()).collect::<BTreeSet<_>>().into_iter().for_each(remark);
     Ok((jobs, files))
 }
 
@@ -308,6 +312,7 @@ fn planned(
     target: Control,
     out: Option<(&Path, Held)>,
 ) -> Result<Job, u8> {
+    let (source, target, taken) = kinds(&inputs, (source, target))?;
     let fresh = Lock::new(source.name(), target.name());
     let (out, lock) = match out {
         Some((folder, held)) => {
@@ -331,8 +336,8 @@ fn planned(
         }
         None => (None, fresh),
     };
-    let notes = doubt(source.name(), &inputs).into_iter().collect();
-    Ok(Job { inputs, named, left_out, source, target, out, lock, notes, way: None, is_whole: false })
+    let notes = doubt(source.name(), &inputs).into_iter().chain(taken.clone()).collect();
+    Ok(Job { inputs, named, left_out, source, target, out, lock, notes, taken, way: None, is_whole: false })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

@@ -23,10 +23,8 @@ pub fn way_of(inputs: &[Input], source: &Control, target: &Control) -> Option<[S
             machine.dialect == control.name() && profile == control.profile().file.as_deref().map(real)
         })
     };
-    let ways = project.libraries.iter().filter(|(_, library)| {
-        let folder = real(&project.root.join(&library.path));
-        is_it(&library.machine, source) && inputs.iter().all(|input| real(&input.path).starts_with(&folder))
-    });
+    let libraries = project.libraries_of(inputs.iter().map(|input| input.path.as_path()));
+    let ways = libraries.filter(|(_, library)| is_it(&library.machine, source));
     let mut ways = ways.flat_map(|(name, library)| library.targets.keys().map(move |target| (name, target)));
     let (library, machine) = ways.find(|(_, machine)| is_it(machine, target))?;
     Some([library.clone(), machine.clone()])

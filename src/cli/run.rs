@@ -1,6 +1,6 @@
 //! `macroglot run FILE`.
 
-use super::common::{control, dialect_of, not_over, own_profile, profile_files, read};
+use super::common::{control, dialect_of, kind_told, not_over, own_profile, profile_files, read};
 use super::streams::{be_open, complain, complain_lines, print_by, tell};
 use super::{FOUND, UNUSABLE, WELL, drawing};
 use crate::control::trace::Place;
@@ -96,6 +96,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         let main = inputs.first().map(|input| input.path.clone());
         inputs.extend(others.into_iter().filter(|input| Some(&input.path) != main.as_ref()));
     }
+    let control = kind_told(&inputs, control);
     let profiles = profile_files(arguments.machine.iter().chain(&own));
     let also = arguments.scenario.iter().chain(&profiles);
     let read = inputs.iter().map(|input| &input.path).chain(also).map(PathBuf::as_path);

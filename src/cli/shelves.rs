@@ -1,11 +1,13 @@
 //! Which libraries a check is about, and which of their files: by its arguments, and by the project file.
 
-use super::common::{control, dialect_of, endings, own_profile, profile, profile_files, read_all};
+use super::common::{control, dialect_of, endings, kind_told, own_profile, profile, profile_files, read_all};
 use super::jobs::short;
 use super::streams::{complain, remark};
 use crate::check::{Output, Shelf};
 use crate::dialect::{Control, registry};
-use crate::library::{Answers, Checks, Folder, Input, Library, Lock, Manifest, Project, profiles_of};
+use crate::library::{
+    Answers, Checks, Folder, Input, Library, Lock, Manifest, Project, of_target, profiles_of,
+};
 use std::path::{Path, PathBuf};
 
 /// What arguments say of the libraries.
@@ -67,8 +69,9 @@ fn of_paths(asked: &Asked<'_>) -> Result<Shelves, u8> {
         return Err(complain(format!("{} is a profile for '{odd}', {what}", path.display())));
     }
     let machine = |name: &str| profiles.iter().find(|(_, of)| of == name).map(|(path, _)| *path);
-    let home = control(&dialect, machine(&dialect).or(own.as_deref()))?;
-    let away = asked.against.iter().map(|name| Ok((name.clone(), control(name, machine(name))?)));
+    let home = kind_told(&inputs, control(&dialect, machine(&dialect).or(own.as_deref()))?);
+    let away = |name: &String| Ok((name.clone(), of_target(&home, control(name, machine(name))?)));
+    let away = asked.against.iter().map(away);
     let rounds = away.collect::<Result<Vec<_>, u8>>()?;
     let shelf = Shelf {
         wanted: vec![true; inputs.len()],
@@ -149,6 +152,7 @@ fn of_folder(
         return Ok(None);
     }
     let inputs = found.programs;
+    let control = kind_told(&inputs, control);
     let is_wanted = |input: &Input| {
         let file = real(&input.path);
         // A conversion that is named stands for its source.
@@ -170,14 +174,14 @@ fn of_folder(
                 "--against {name}: no machine of macroglot.toml has this name; a dialect is one of {dialects}"
             )));
         };
-        let away = machine(project, &name)?;
+        let away = of_target(&control, machine(project, &name)?);
         if !away.is_same_machine(&control) {
             rounds.push((name, away));
         }
     }
     let mut targets = Vec::new();
     let outputs = library.targets.iter().map(|(name, folder)| {
-        let target = machine(project, name)?;
+        let target = of_target(&control, machine(project, name)?);
         let profiles = profiles_of(&control, &target);
         targets.push((name.clone(), target));
         Ok(Output { machine: name.clone(), folder: short(&project.root.join(folder)), profiles })

@@ -2,9 +2,9 @@
 
 use super::WELL;
 use super::common::{self, control, controls, dialect_of, doubt, own_profile, read};
-use super::streams::{self, complain, remark};
-use crate::dialect::Side;
-use crate::library::{Files, write_file};
+use super::streams::{self, complain, complain_lines, remark};
+use crate::dialect::{Machine, Side};
+use crate::library::{Files, of_library, settled, write_file};
 use crate::survey::{self, Survey};
 use std::path::{Path, PathBuf};
 
@@ -54,21 +54,32 @@ fn work(arguments: &Arguments) -> Result<(), u8> {
     dialects.dedup();
     let (machines, places) = profiles(arguments, &dialects)?;
     let own = own_profile(arguments.from.as_deref(), &inputs)?;
-    let (source, target) = match to {
+    let mut is_open_lathe = [false; 2];
+    let (source, target, taken) = match to {
         Some(to) => {
-            let (source, target) = controls(&from, to, &machines, own.as_deref())?;
-            (source, Some(target))
+            let both = controls(&from, to, &machines, own.as_deref())?;
+            let stated = [&both.0, &both.1].map(|control| control.profile().machine.is_some());
+            let (source, target, taken) = settled(&inputs, both.0, both.1).map_err(complain_lines)?;
+            let lathe = [&source, &target].map(|control| control.machine() == Machine::Lathe);
+            is_open_lathe = [lathe[0] && !stated[0], lathe[1] && !stated[1]];
+            (source, Some(target), taken)
         }
-        None => (control(&from, machines.first().or(own.as_ref()).map(PathBuf::as_path))?, None),
+        None => {
+            let source = control(&from, machines.first().or(own.as_ref()).map(PathBuf::as_path))?;
+            let (source, taken) = of_library(&inputs, source);
+            is_open_lathe[0] = taken.is_some();
+            (source, None, taken)
+        }
     };
     let programs = Files::of(inputs.iter().map(|input| input.path.as_path()));
     if let Some(place) = places.iter().find(|place| programs.holds(place)) {
         return Err(complain(format!("{} is a program and would be overwritten", place.display())));
     }
     doubt(source.name(), &inputs);
-    let survey = common::with_spinner(format!("looking at {} files", inputs.len()), || {
+    let mut survey = common::with_spinner(format!("looking at {} files", inputs.len()), || {
         survey::survey(&inputs, &source, target.as_ref())
     });
+    (survey.taken, survey.is_open_lathe) = (taken, is_open_lathe);
     let sides = places.iter().zip([Side::Source, Side::Target]);
     let filled = sides.map(|(place, side)| Ok((place, filled(&survey, side, place)?)));
     // Both are known before either is written.

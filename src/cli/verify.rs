@@ -1,6 +1,8 @@
 //! `macroglot verify SOURCE TARGET`.
 
-use super::common::{Time, controls, dialect_of, effort, not_over, own_profile, profile_files, read};
+use super::common::{
+    Time, controls, dialect_of, effort, kinds_told, not_over, own_profile, profile_files, read,
+};
 use super::streams::{complain, print, remark};
 use super::{FOUND, WELL, pager};
 use crate::control::LoadedFile;
@@ -67,7 +69,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let from = dialect_of(arguments.from.as_deref(), &ours)?;
     let to = dialect_of(arguments.to.as_deref(), &theirs)?;
     let own = own_profile(arguments.from.as_deref(), &ours)?;
-    let (source, target) = controls(&from, &to, &arguments.machine, own.as_deref())?;
+    let (source, target) = kinds_told(&ours, controls(&from, &to, &arguments.machine, own.as_deref())?)?;
     let names = names(&home, &source, &target)?;
     let effort = effort(&arguments.time);
     let certificate = certify((&ours, &source), (&theirs, &target), &names, effort)?;

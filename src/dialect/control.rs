@@ -12,6 +12,9 @@ use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+/// The setting that says the G code system of a lathe, as a profile has it under `[settings]`.
+pub const CODE_SYSTEM: &str = "gcode_system";
+
 /// A dialect with a machine profile laid over it.
 ///
 /// Rows for another kind of machine, for other settings, and for options that
@@ -292,6 +295,16 @@ impl Control {
     /// The value of a setting: the profile's, else the table's.
     pub fn setting(&self, name: &str) -> Option<&str> {
         self.settings.get(name).map(String::as_str)
+    }
+
+    /// The G code system that a lathe's programs are read by though no profile says it, with its setting; none where a profile
+    /// does, or the control has one system only.
+    pub fn open_code_system(&self) -> Option<(&str, &Setting)> {
+        if self.machine() != Machine::Lathe || self.profile.settings.contains_key(CODE_SYSTEM) {
+            return None;
+        }
+        let name = format!("setting.{CODE_SYSTEM}");
+        Some((self.setting(&name)?, self.setting_row(&name)?))
     }
 
     /// The row of a setting.

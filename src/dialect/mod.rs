@@ -45,7 +45,7 @@ mod tests;
 mod unconfirmed;
 
 pub use acts::{Acts, Ends};
-pub use control::Control;
+pub use control::{CODE_SYSTEM, Control};
 pub use control_codes::{Alias, CodePlace};
 pub use extend::Base;
 pub use extends::Unreadable;

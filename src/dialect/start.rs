@@ -24,6 +24,11 @@ pub struct StartMode {
 }
 
 impl StartMode {
+    /// The groups of which a machine may say what is in force. Cycles, lengths and compensation are cancelled when a program
+    /// begins.
+    pub const GROUPS: [Group; 6] =
+        [Group::Units, Group::Distance, Group::Plane, Group::FeedMode, Group::Motion, Group::WorkOffset];
+
     fn of(row: &CodeMeaning) -> Self {
         Self { op: row.op, fixed: row.fixed.clone() }
     }
@@ -34,11 +39,6 @@ impl StartMode {
         (number.fract() == 0.0 && (0.0..1e6).contains(number)).then_some(*number as u32)
     }
 }
-
-/// The groups of which a machine may say what is in force. Cycles, lengths and compensation are cancelled when a program
-/// begins.
-const GROUPS: [Group; 6] =
-    [Group::Units, Group::Distance, Group::Plane, Group::FeedMode, Group::Motion, Group::WorkOffset];
 
 impl Control {
     /// What is in force when a program begins; empty where the profile does not say it.
@@ -88,7 +88,7 @@ impl Control {
         let may = match mode.op.group() {
             Group::Motion => matches!(mode.op, Op::Rapid | Op::Linear),
             Group::WorkOffset => mode.work_offset().is_some_and(|number| number > 0),
-            group => GROUPS.contains(&group),
+            group => StartMode::GROUPS.contains(&group),
         };
         if may && row.modal != Some(false) {
             return Ok(mode);

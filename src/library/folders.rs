@@ -5,6 +5,7 @@
 
 use super::inputs::{Files, Found, Input, Source, sources};
 use super::project::Library;
+use super::selection::{Selection, unknown};
 use super::understood::understood;
 use super::unread::{InputError, LeftOut, WhyNot};
 use crate::dialect::Control;
@@ -25,7 +26,24 @@ pub struct Folder {
 impl Library {
     /// Its folders. `place` is where a path of the project file is seen from here.
     pub fn folders(&self, place: impl Fn(&Path) -> PathBuf, endings: &[String]) -> Vec<Folder> {
-        let Found { programs, mut left_out, mut errors } = sources(&[place(&self.path)], endings);
+        let Found { mut programs, mut left_out, mut errors } = sources(&[place(&self.path)], endings);
+        // A pattern that cannot be read was told with the project file.
+        let selection = Selection::of(self).unwrap_or_default();
+        let names: BTreeSet<&str> = programs.iter().map(Source::name).collect();
+        if let Some((key, name)) = unknown(self, &names) {
+            errors.push(InputError::NotThere(place(&self.path), key, name.to_owned()));
+        }
+        let any = !programs.is_empty();
+        programs.retain(|one| {
+            let is_of = selection.takes(one.name());
+            if !is_of {
+                left_out.push(LeftOut { path: one.path.clone(), why: WhyNot::Excluded });
+            }
+            is_of
+        });
+        if any && programs.is_empty() {
+            errors.push(InputError::NoneTaken(place(&self.path)));
+        }
         let mut shared = Vec::new();
         for path in &self.shared {
             let path = place(path);

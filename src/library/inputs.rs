@@ -151,6 +151,11 @@ impl Source {
         Self { name, ..self }
     }
 
+    /// Its place under the folder that was named.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
     fn open(&self) -> Result<Box<dyn Read + '_>, InputError> {
         if self.path == Path::new("-") {
             return Ok(Box::new(self.start.chain(io::stdin())));

@@ -21,17 +21,20 @@ use std::collections::{BTreeMap, BTreeSet};
 /// How strong signs are, together, that settle the kind of a program.
 const ENOUGH: u32 = 3;
 
+/// How strong signs of a mill are that no lathe program has by chance.
+const SURELY: u32 = 2;
+
 /// What a program's own text says of its machine.
 #[derive(Clone, Debug, Default)]
-struct Signs {
+pub(super) struct Signs {
     lathe: u32,
     mill: u32,
     /// The first sign of a lathe: where it is, and what.
-    first: Option<(Span, String)>,
+    pub(super) first: Option<(Span, String)>,
 }
 
 impl Signs {
-    fn is_lathe(&self) -> bool {
+    pub(super) fn is_lathe(&self) -> bool {
         self.lathe >= ENOUGH && self.lathe > self.mill
     }
 
@@ -39,12 +42,17 @@ impl Signs {
         self.mill > 0 && self.mill >= self.lathe
     }
 
-    fn of(program: &Program, found: &[Diagnostic], inputs: &[Input], source: &Control) -> Self {
+    /// True where it is a mill's by more than a weak sign.
+    pub(super) fn is_surely_mill(&self) -> bool {
+        self.is_mill() && self.mill >= SURELY
+    }
+
+    /// What the text of a program says, of a file with these bytes.
+    pub(super) fn of(program: &Program, found: &[Diagnostic], bytes: &[u8], source: &Control) -> Self {
         let mut signs = Self::default();
         let mut seen = BTreeSet::new();
         for finding in found.iter().filter(|finding| finding.code == Code::LatheProgram) {
-            let text =
-                inputs.get(program.file).and_then(|input| input.bytes.get(finding.span.start as usize));
+            let text = bytes.get(finding.span.start as usize);
             // A letter that is no axis of a mill is one of a machine with another axis too.
             let weight = if text.is_some_and(|letter| b"UVWuvw".contains(letter)) { 2 } else { ENOUGH };
             if seen.insert(finding.message.clone()) {
@@ -114,8 +122,9 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
     }
     let told = source.profile().machine.is_some();
     let programs = module.programs.iter().zip(&*found);
+    let bytes = |program: &Program| inputs.get(program.file).map_or(&[][..], |input| &input.bytes);
     let signs: Vec<Signs> =
-        programs.map(|(program, found)| Signs::of(program, found, inputs, source)).collect();
+        programs.map(|(program, found)| Signs::of(program, found, bytes(program), source)).collect();
     if !signs.iter().any(Signs::is_lathe) {
         return;
     }
@@ -145,16 +154,28 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
                     program is for a mill";
         found.push(Diagnostic::new(Code::LatheProgram, span, what).with_help(help));
     }
+    if signs.iter().any(Signs::is_mill) {
+        let all = found.iter_mut().flatten().filter(|finding| finding.code == Code::LatheProgram);
+        all.for_each(say_of_two_machines);
+    }
+}
+
+/// Adds how a folder with the programs of two machines is converted.
+fn say_of_two_machines(finding: &mut Diagnostic) {
+    let help = finding.help.take().map(|help| format!("{help}. ")).unwrap_or_default();
+    let more = "The library has programs of a mill too: macroglot.toml can make two libraries of the folder, where `only` \
+                and `except` say which files are of which";
+    finding.help = Some(format!("{help}{more}").into());
 }
 
 /// True where a program has words of NC code, which mean other things on another kind of machine.
-fn names_machine(program: &Program) -> bool {
+pub(super) fn names_machine(program: &Program) -> bool {
     let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
     stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if !nc.items.is_empty()))
 }
 
 /// File and line of a place.
-fn place(inputs: &[Input], file: usize, span: Span) -> String {
+pub(super) fn place(inputs: &[Input], file: usize, span: Span) -> String {
     let Some(input) = inputs.get(file) else { return "another file".into() };
     let before = input.bytes.get(..span.start as usize).unwrap_or_default();
     let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();

@@ -2,6 +2,8 @@
 //! need no flags in its repository.
 
 use super::accepted::{Entry, seen_from};
+use super::places::slashed;
+use super::selection::Selection;
 use crate::dialect::registry;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -44,6 +46,11 @@ pub struct Machine {
 pub struct Library {
     /// Its folder.
     pub path: PathBuf,
+    /// The files of the folder that are of the library, as patterns: `*` is any letters but `/`, `**` any. All without it.
+    pub only: Option<Vec<String>>,
+    /// Files of the folder that are not, as patterns.
+    #[serde(default)]
+    pub except: Vec<String>,
     /// The machine its programs are written for.
     pub machine: String,
     /// True where each folder in it is a library of its own: copies for several machines, or a folder for each job.
@@ -124,6 +131,9 @@ impl Project {
             return Err(fault(Some(line(at)), format!("[[accepted]]: {why}")));
         }
         for (name, library) in &project.libraries {
+            if let Err(why) = Selection::of(library) {
+                return Err(fault(None, format!("library '{name}': {why}")));
+            }
             for machine in std::iter::once(&library.machine).chain(library.targets.keys()) {
                 if !project.machines.contains_key(machine) {
                     let message = format!(
@@ -141,6 +151,25 @@ impl Project {
         }
         project.root = path.parent().map(Path::to_owned).unwrap_or_default();
         Ok(Some(project))
+    }
+
+    /// The libraries that hold all of these files, by name.
+    pub fn libraries_of<'p>(
+        &'p self,
+        files: impl Iterator<Item = &'p Path>,
+    ) -> impl Iterator<Item = (&'p String, &'p Library)> {
+        let real = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let files: Vec<PathBuf> = files.map(real).collect();
+        self.libraries.iter().filter(move |(_, library)| {
+            let folder = real(&self.root.join(&library.path));
+            let selection = Selection::of(library).unwrap_or_default();
+            let is_of = |file: &PathBuf| {
+                // A library may be one file.
+                let name = file.strip_prefix(&folder).ok();
+                name.is_some_and(|name| name.as_os_str().is_empty() || selection.takes(&slashed(name)))
+            };
+            files.iter().all(is_of)
+        })
     }
 
     /// A file or folder as entries of the project file name it: seen from its folder, with `/` between parts.

@@ -4,7 +4,7 @@
 use super::chunks::lower::lower;
 use super::names::report_duplicates;
 use super::prepare::File;
-use super::{Input, machine_kind};
+use super::{Input, code_system, machine_kind};
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
 use crate::ir::Module;
@@ -53,5 +53,6 @@ impl Understood {
     pub(super) fn report(&mut self, inputs: &[Input], control: &Control) {
         report_duplicates(&self.module, inputs, &mut self.found);
         machine_kind::report(&self.module, inputs, control, &mut self.found);
+        code_system::report(&self.module, inputs, control, &mut self.found);
     }
 }

@@ -35,6 +35,8 @@ pub enum WhyNot {
     Written,
     /// It is shared, and its folder has a program of that number.
     Own,
+    /// The project file says that it is not of the library.
+    Excluded,
 }
 
 impl WhyNot {
@@ -50,6 +52,7 @@ impl WhyNot {
             Self::Binary => "binary",
             Self::Written => "written by macroglot",
             Self::Own => "shared, where the folder has its own",
+            Self::Excluded => "not of this library by macroglot.toml",
         }
     }
 }
@@ -78,6 +81,12 @@ pub enum InputError {
     /// A file that is too long, or a line in it.
     #[error("{0}: is longer than 4 GB")]
     TooLong(PathBuf),
+    /// A file that the project file names under a key, and that the folder does not have.
+    #[error("{0}: macroglot.toml names '{2}' under '{1}', and the folder has no such program")]
+    NotThere(PathBuf, &'static str, String),
+    /// A folder of which the project file takes no program.
+    #[error("{0}: no program of the folder is of the library by 'only' and 'except' in macroglot.toml")]
+    NoneTaken(PathBuf),
     /// Two files whose conversions would be one.
     #[error(
         "{0} and {1} are both '{2}' under the folders named: their conversions would overwrite each other"

@@ -5,6 +5,7 @@
 //! them, the questions with several answers are left open.
 
 use super::Survey;
+use crate::canon::Group;
 use crate::dialect::{Control, Plain, Profile, Question, Settled, SiteCode, Units, Without};
 use crate::report::Questions;
 use std::collections::BTreeMap;
@@ -25,10 +26,21 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
         let code = asked.code.clone();
         Box::new(move |profile| profile.site.push(site(&code)))
     });
-    let answered = with(source, codes.chain(asked(source, target)).collect());
+    // The unit has a question of its own.
+    let begins = survey.start.iter().filter(|asked| asked.group != Group::Units);
+    let begins: Vec<String> = begins.filter_map(|asked| asked.codes.first().cloned()).collect();
+    let start = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &begins)) });
+    let answered = with(source, codes.chain(asked(source, target)).chain(start).collect());
     let target = with(target, asked(target, source));
     let as_they_are = [answered.clone(), target.clone()];
     Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])
+}
+
+/// Adds what programs begin in to what the profile says of that.
+fn begin(profile: &mut Profile, codes: &[String]) {
+    let said = profile.start.codes.take().into_iter();
+    let all: Vec<String> = said.chain(codes.iter().cloned()).collect();
+    profile.start.codes = (!all.is_empty()).then(|| all.join(" "));
 }
 
 /// A code that means nothing to the target.

@@ -3,8 +3,8 @@
 //! What stands in the profile stays, byte for byte. Each question is a comment that begins with `#?`: who answers it takes
 //! these signs away. The next survey takes the questions out that are left, and puts its own in.
 
-use super::Survey;
-use crate::dialect::{Control, Profile, Settled, Side};
+use super::{AskedStart, Survey};
+use crate::dialect::{Control, Machine, Profile, Settled, Side};
 use crate::report::{Fact, Questions};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -37,11 +37,19 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
         text.push('\n');
     }
     let before = read(old.unwrap_or(&text))?;
-    let asked = survey.with_questions(|questions| lines(questions, control));
+    let mut asked = survey.with_questions(|questions| lines(questions, control));
+    let lathe = lathe(survey, side);
+    if let Some((system, of)) = lathe.as_ref().and_then(|(_, system)| system.as_ref()) {
+        let line = format!("{ASKS} gcode_system = \"{system}\" # {of}\n");
+        asked.entry("settings").or_default().insert_str(0, &line);
+    }
+    if side == Side::Source && !survey.start.is_empty() {
+        asked.insert("start", start(&survey.start, control.profile().start.codes.as_deref()));
+    }
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;
     }
-    text = with_machine(&text, control.profile());
+    text = with_machine(&text, control.profile(), lathe.map(|(line, _)| line));
     if side == Side::Source {
         codes(&mut text, survey);
     }
@@ -137,16 +145,62 @@ fn after_dialect(text: &str, profile: &Profile) -> usize {
     text.get(head..).and_then(|rest| rest.find('\n')).map_or(text.len(), |end| head + end + 1)
 }
 
+/// What programs begin in without saying it, as one line to fill in with a line for each mode before it. What is `said` stays,
+/// and gets more codes.
+fn start(asked: &[AskedStart], said: Option<&str>) -> String {
+    let mut lines = String::new();
+    let _ =
+        writeln!(lines, "{ASKS} # What is in force after a reset, as the machine's page of codes shows it.");
+    for AskedStart { what, codes, programs, places, .. } in asked {
+        let programs = if *programs == 1 { "1 program".to_owned() } else { format!("{programs} programs") };
+        let (codes, places) = (codes.join(", "), plain(&places.join(", ")));
+        let _ = writeln!(lines, "{ASKS} # {what}: one of {codes} ({programs}: {places})");
+    }
+    let codes = asked.iter().map(|asked| asked.codes.join("|")).collect::<Vec<_>>().join(" ");
+    let _ = match said {
+        Some(_) => writeln!(lines, "{ASKS} # Write these into codes too, one of each: {codes}"),
+        None => writeln!(lines, "{ASKS} codes = \"{codes}\""),
+    };
+    lines
+}
+
+/// Of a machine that is taken as a lathe: the line that says so, and its G code system with what that is, if it has several.
+fn lathe(survey: &Survey<'_>, side: Side) -> Option<(String, Option<(String, String)>)> {
+    let taken = survey.taken.as_ref();
+    let at = match side {
+        Side::Source => 0,
+        Side::Target => 1,
+    };
+    survey.is_open_lathe.get(at).filter(|open| **open)?;
+    let line = match (side, taken) {
+        (Side::Source, Some(taken)) => {
+            format!("machine = \"lathe\" # or \"mill\": {} in {}", plain(&taken.sign), plain(&taken.place))
+        }
+        _ => "machine = \"lathe\" # as the programs are a lathe's".to_owned(),
+    };
+    let system = survey.controls[at].open_code_system().map(|(system, row)| {
+        let others = row.values.iter().filter(|value| **value != system);
+        let others = others.map(|value| format!("\"{value}\"")).collect::<Vec<_>>().join(" or ");
+        (system.to_owned(), format!("or {others}: {}", row.meaning))
+    });
+    Some((line, system))
+}
+
 /// The text with what every profile should say of its machine, as far as this one does not.
-fn with_machine(text: &str, said: &Profile) -> String {
+fn with_machine(text: &str, said: &Profile, lathe: Option<String>) -> String {
+    let kind = lathe.as_deref().unwrap_or("machine = \"mill\" or \"lathe\"");
+    let axes = match said.machine {
+        Some(Machine::Lathe) => "axes = [\"X\", \"Z\"] # in the order of the control's axis numbers",
+        _ => "axes = [\"X\", \"Y\", \"Z\"] # in the order of the control's axis numbers",
+    };
     let all = [
         (said.title.is_none(), "title = \"\" # what people call the machine"),
-        (said.machine.is_none(), "machine = \"mill\" or \"lathe\""),
+        (said.machine.is_none() || lathe.is_some(), kind),
         (
             said.units.is_none(),
             "units = \"inch\" or \"metric\" # what its programs are in where no code says so",
         ),
-        (said.axes.is_none(), "axes = [\"X\", \"Y\", \"Z\"] # in the order of the control's axis numbers"),
+        (said.axes.is_none(), axes),
         (said.reserved.is_empty(), "reserved = [] # variables that programs must not be given"),
     ];
     let Ok(profile) = Profile::read(text) else { return text.to_owned() };

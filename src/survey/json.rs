@@ -1,6 +1,6 @@
 //! A survey for programs. Its keys are a contract.
 
-use super::{AskedCode, Outcomes, Shape, Survey};
+use super::{AskedCode, AskedStart, Outcomes, Shape, Survey};
 use crate::diag::{Code, Severity};
 use crate::report::{Question, Questions};
 use serde::Serialize;
@@ -10,7 +10,11 @@ struct Report<'a> {
     from: &'a str,
     to: Option<&'a str>,
     library: &'a Shape,
+    /// Why the library is read as a lathe's, where no profile says it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    taken: Option<String>,
     codes: &'a [AskedCode],
+    start: &'a [AskedStart],
     questions: Vec<Asked<'a>>,
     now: Outcomes,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,7 +51,9 @@ pub fn json(survey: &Survey<'_>) -> String {
             from: source.name(),
             to: survey.goes.then(|| target.name()),
             library: &survey.shape,
+            taken: survey.taken.as_ref().map(ToString::to_string),
             codes: &survey.codes,
+            start: &survey.start,
             questions: all(questions),
             now: survey.now,
             answered: survey.answered,

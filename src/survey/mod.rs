@@ -9,18 +9,21 @@ mod codes;
 mod filled;
 mod json;
 mod shape;
+mod start;
 mod text;
 
 pub use codes::AskedCode;
 pub use filled::{Unfit, filled};
 pub use json::json;
 pub use shape::{Missing, Shape};
+pub use start::AskedStart;
 pub use text::text;
 
 use crate::diag::{Code, Severity};
 use crate::dialect::Control;
 use crate::library::{
-    Conversion, Input, Lock, Options, Outcome, ProgramReport, Told, Understood, convert, outcome, understood,
+    Conversion, Input, Lock, Options, Outcome, ProgramReport, TakenAsLathe, Told, Understood, convert,
+    outcome, understood,
 };
 use crate::report::{Part, Questions};
 use serde::Serialize;
@@ -34,10 +37,16 @@ pub struct Survey<'a> {
     controls: [&'a Control; 2],
     /// True if a target was named.
     goes: bool,
+    /// Why the library is read as a lathe's, where no profile says it.
+    pub taken: Option<TakenAsLathe>,
+    /// By machine: true where it is a lathe, and its profile does not say so.
+    pub is_open_lathe: [bool; 2],
     /// What the library is.
     pub shape: Shape,
     /// The codes of which a profile must say what the machine's builder made of them; what frees most programs is first.
     pub codes: Vec<AskedCode>,
+    /// What its programs take from the machine when they begin, and the profile does not say.
+    pub start: Vec<AskedStart>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What would become of it now.
@@ -72,6 +81,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let library = understood(inputs, source);
     let places = Places::new(inputs);
     let shape = Shape::of(inputs, &places, &library);
+    let start = start::asked(&places, source, &library.module);
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),
@@ -88,8 +98,11 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         inputs,
         controls,
         goes,
+        taken: None,
+        is_open_lathe: [false; 2],
         shape,
         codes,
+        start,
         rest: conversion,
         now,
         answered: None,

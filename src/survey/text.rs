@@ -1,6 +1,7 @@
 //! A survey for people.
 
-use super::{AskedCode, Missing, Outcomes, Shape, Survey};
+use super::{AskedCode, AskedStart, Missing, Outcomes, Shape, Survey};
+use crate::library::TakenAsLathe;
 use crate::report::asked;
 use crate::text::shown;
 use std::fmt::Write;
@@ -14,21 +15,25 @@ const CODES: usize = 100;
 /// The survey as text.
 pub fn text(survey: &Survey<'_>) -> String {
     let mut out = String::new();
-    shape(&mut out, &survey.shape);
+    shape(&mut out, &survey.shape, survey.taken.as_ref());
     if !survey.codes.is_empty() {
         codes(&mut out, &survey.codes);
     }
+    start(&mut out, &survey.start);
     out.push_str(&survey.with_questions(|questions| asked(questions, "--format json has")));
     ends(&mut out, survey);
     out
 }
 
-fn shape(out: &mut String, shape: &Shape) {
+fn shape(out: &mut String, shape: &Shape, taken: Option<&TakenAsLathe>) {
     let Shape { files, programs, reads, lathe, lathe_sign, called, missing, twice, folders } = shape;
     let files = if *files == 1 { "1 file".into() } else { format!("{files} files") };
     let _ = writeln!(out, "library   {} in {files}", count(*programs));
     let reads: Vec<String> = reads.iter().map(|(title, share)| format!("{title} {share} %")).collect();
     let _ = writeln!(out, "control   how much of its text each control reads: {}", reads.join(", "));
+    if let Some(taken) = taken {
+        let _ = writeln!(out, "machine   {}", shown(&taken.to_string()));
+    }
     if let Some((sign, place)) = lathe_sign {
         let mill = programs - lathe;
         let (sign, place) = (shown(sign), shown(place));
@@ -89,6 +94,25 @@ fn codes(out: &mut String, codes: &[AskedCode]) {
     let left = codes.len().saturating_sub(CODES);
     if left > 0 {
         let _ = writeln!(out, "  and {left} more; --format json has all");
+    }
+}
+
+fn start(out: &mut String, asked: &[AskedStart]) {
+    if asked.is_empty() {
+        return;
+    }
+    out.push_str("\nWhat programs take from the machine, because they do not say it when they begin:\n");
+    out.push_str(
+        "The source's profile says it under [start]; the machine's page of codes shows it after a reset.\n",
+    );
+    for AskedStart { what, codes, programs, places, .. } in asked {
+        let _ = writeln!(
+            out,
+            "  {what} ({}) {}: {}",
+            codes.join(", "),
+            count(*programs),
+            shown(&places.join(", "))
+        );
     }
 }
 

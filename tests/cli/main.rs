@@ -15,6 +15,7 @@ mod hostile;
 mod inputs;
 mod interrupted;
 mod ir;
+mod lathes;
 mod locks;
 mod outputs;
 mod profiles;

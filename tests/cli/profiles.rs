@@ -239,3 +239,59 @@ fn variables_of_six_digits_are_asked_of_the_profile() {
     let ran = shop.run(&format!("run a.nc --dialect fanuc --machine {machine} --set #900000=4"));
     assert!(ran.out.contains("#900000 = 5"), "{}{}", ran.out, ran.err);
 }
+
+/// Every profile that ships is one, with what it extends; what it says of its kind is in its name.
+#[test]
+fn the_profiles_that_ship_are_read() {
+    let folder = repository("machines");
+    let mut count = 0;
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let dialect =
+            text.lines().find_map(|line| line.strip_prefix("dialect = ")).unwrap().trim_matches('"');
+        let run = Shop::empty().run(&format!("dialects {dialect} --machine {}", path.display()));
+        assert_eq!(run.code, 0, "{}: {}", path.display(), run.err);
+        let name = path.file_stem().unwrap().to_string_lossy();
+        let is_lathe = name.ends_with("-t") || name == "haas-st";
+        // Turning and facing passes are codes of lathes alone.
+        assert_eq!(run.out.contains("pass.turning"), is_lathe, "{}", path.display());
+        count += 1;
+    }
+    assert_eq!(count, 12);
+}
+
+/// A line that is commented out is an answer that nobody has given: put in, it must be one that the profile may have.
+#[test]
+fn the_lines_to_fill_in_are_of_their_profile() {
+    for (name, lines) in [
+        (
+            "fanuc-30i.toml",
+            &["offset_memory = \"C\"", "codes = \"G90 G17 G21 G54 G0 G94\"", "work_offsets = 48"][..],
+        ),
+        (
+            "fanuc-30i-t.toml",
+            &[
+                "gcode_system = \"A\"",
+                "codes = \"G18 G21 G54 G0 G99\"",
+                "axes = [\"X\", \"Z\", \"C\", \"Y\"]",
+            ],
+        ),
+        (
+            "haas-st.toml",
+            &["codes = \"G18 G20 G54 G0 G99\"", "73 = 0.05", "95 = 1", "99 = 0.001", "162 = 0", "22 = 0.05"],
+        ),
+    ] {
+        let text = std::fs::read_to_string(repository(&format!("machines/{name}"))).unwrap();
+        let mut filled = text.clone();
+        for line in lines {
+            assert!(text.contains(&format!("# {line}")), "{name}: {line}");
+            filled = filled.replace(&format!("# {line}"), line);
+        }
+        let filled = filled.replace("# [settings]", "[settings]").replace("# [start]", "[start]");
+        let dialect = if name.starts_with("haas") { "haas" } else { "fanuc" };
+        let shop = Shop::with(&[("m.toml", &filled)]);
+        let run = shop.run(&format!("dialects {dialect} --machine m.toml"));
+        assert_eq!(run.code, 0, "{name}: {}", run.err);
+    }
+}

@@ -151,3 +151,74 @@ fn folders_are_checked_by_themselves() {
     assert_eq!(run.code, 1, "{}", run.out);
     assert!(run.out.contains("programs/job2/own.nc:2"), "{}", run.out);
 }
+
+/// Two machines' programs in one folder are two libraries: each file is of one of them.
+#[test]
+fn a_library_takes_some_files_of_its_folder() {
+    let more = "[libraries.other]\npath = \"programs\"\nonly = [\"**/b*.nc\"]\nmachine = \"old\"\n[libraries.other.targets]\nnew = \"other\"\n";
+    let project =
+        PROJECT.replace("machine = \"old\"", "except = [\"b.nc\", \"sub/*\"]\nmachine = \"old\"") + more;
+    let numbered = |number: u32| CLEAN.replace("O1234", &format!("O{number}"));
+    let shop = Shop::with(&[
+        ("macroglot.toml", &project),
+        ("programs/a.nc", CLEAN),
+        ("programs/b.nc", &numbered(2)),
+        ("programs/sub/b2.nc", &numbered(3)),
+        ("programs/sub/deep/c.nc", &numbered(4)),
+    ]);
+    let run = shop.run("convert --verbose");
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let files = shop.files();
+    let written = |folder: &str| -> Vec<String> {
+        let all = names(&files).into_iter().filter(|name| name.starts_with(folder) && name.ends_with(".nc"));
+        all.map(str::to_owned).collect()
+    };
+    // A single star stops at the folder.
+    assert_eq!(written("out/"), ["out/a.nc", "out/sub/deep/c.nc"]);
+    assert_eq!(written("other/"), ["other/b.nc", "other/sub/b2.nc"]);
+    assert!(run.out.contains("programs/b.nc: not of this library by macroglot.toml"), "{}", run.out);
+    // A file alone is of the library that takes it.
+    let checked = shop.run("check programs/b.nc --no-cache");
+    assert!(checked.out.starts_with("1 file checked"), "{}{}", checked.out, checked.err);
+}
+
+#[test]
+fn names_that_take_no_file_are_faults() {
+    let shop = Shop::with(&[("programs/a.nc", CLEAN)]);
+    for (line, words) in [
+        ("only = []", &["shop", "'only' names no file"][..]),
+        ("only = [\"[\"]", &["shop", "'[' is no pattern"]),
+        ("only = [\"b.nc\"]", &["programs", "'b.nc' under 'only'"]),
+        ("except = [\"b.nc\"]", &["programs", "'b.nc' under 'except'"]),
+        ("only = [\"*.tap\"]", &["programs", "no program of the folder"]),
+    ] {
+        let text = PROJECT.replace("machine = \"old\"", &format!("{line}\nmachine = \"old\""));
+        shop.write("macroglot.toml", text.as_bytes());
+        shop.fails("convert", words);
+    }
+    // A pattern may be there for files to come.
+    let text = PROJECT.replace("machine = \"old\"", "except = [\"*.bak\"]\nmachine = \"old\"");
+    shop.write("macroglot.toml", text.as_bytes());
+    assert_eq!(shop.run("convert").code, 0);
+}
+
+/// Whose profile counts for a file says the library that takes it.
+#[test]
+fn a_file_has_the_machine_of_its_library() {
+    let project = "[machines.inch]\ndialect = \"fanuc\"\nprofile = \"inch.toml\"\n[machines.metric]\ndialect = \
+                   \"fanuc\"\nprofile = \"metric.toml\"\n[libraries.a]\npath = \"programs\"\nexcept = \
+                   [\"b.nc\"]\nmachine = \"inch\"\n[libraries.b]\npath = \"programs\"\nonly = [\"b.nc\"]\nmachine = \
+                   \"metric\"\n";
+    let program = "O1\nG90 G0 X1.\nM30\n";
+    let shop = Shop::with(&[
+        ("macroglot.toml", project),
+        ("inch.toml", "dialect = \"fanuc\"\nunits = \"inch\"\n"),
+        ("metric.toml", "dialect = \"fanuc\"\nunits = \"metric\"\n"),
+        ("programs/a.nc", program),
+        ("programs/b.nc", program),
+    ]);
+    for (file, code) in [("a", "G20"), ("b", "G21")] {
+        let run = shop.run(&format!("convert programs/{file}.nc --to haas --no-verify"));
+        assert!(run.out.contains(code), "{}{}", run.out, run.err);
+    }
+}

@@ -106,3 +106,44 @@ fn no_program_is_written_over() {
     assert_eq!(run.code, 2);
     assert!(shop.read("lib/o1000.nc").starts_with("O1000\nG21"));
 }
+
+/// What programs begin in is one line of the profile, of the modes that they do not name themselves.
+#[test]
+fn what_programs_begin_in_is_asked_once() {
+    let shop = Shop::with(&[
+        ("lib/a.nc", "O1\nG21 G90 G17 G54\nG0 X1.\nG1 X2. F100.\nM98 P3\nM30\n"),
+        ("lib/b.nc", "O2\nG21 G90 G17\nG1 X2. F100.\nM30\n"),
+        ("lib/c.nc", "O3\nX3.\nM99\n"),
+    ]);
+    let survey = json(&shop, "survey lib --from fanuc --to haas --format json");
+    let start = survey["start"].as_array().unwrap();
+    let told: Vec<(&str, u64)> = start
+        .iter()
+        .map(|asked| (asked["what"].as_str().unwrap(), asked["programs"].as_u64().unwrap()))
+        .collect();
+    // O3 begins in what O1 sets; O1 names all but the feed mode, and O2 neither that nor the work offset.
+    assert_eq!(told, [("feed a minute or a turn", 2), ("the work offset", 1)]);
+    assert_eq!(start[0]["codes"], serde_json::json!(["G94", "G95"]));
+    assert_eq!(start[1]["places"], serde_json::json!(["b.nc:1"]));
+    let line = "survey lib --from fanuc --to haas --write m.toml";
+    assert_eq!(shop.run(line).code, 0);
+    let asked = shop.read("m.toml");
+    assert!(asked.contains("[start]\n#? # What is in force after a reset"), "{asked}");
+    let choice = "#? codes = \"G94|G95 G54|G55|G56|G57|G58|G59\"\n";
+    assert!(asked.contains(choice), "{asked}");
+    // As it stands it is no answer.
+    shop.write("m.toml", asked.replace("#? codes", "codes").as_bytes());
+    assert_eq!(shop.run(line).code, 2);
+    // One of two answered: the other one is still asked, and what was said stays.
+    shop.write("m.toml", asked.replace(choice, "codes = \"G94\"\n").as_bytes());
+    assert_eq!(shop.run(line).code, 0);
+    let again = shop.read("m.toml");
+    assert!(again.contains("\ncodes = \"G94\"\n"), "{again}");
+    assert!(
+        again.contains("#? # Write these into codes too, one of each: G54|G55|G56|G57|G58|G59\n"),
+        "{again}"
+    );
+    shop.write("m.toml", again.replace("\"G94\"", "\"G94 G54\"").as_bytes());
+    assert_eq!(shop.run(line).code, 0);
+    assert!(!shop.read("m.toml").contains("one of each"), "{}", shop.read("m.toml"));
+}

@@ -101,7 +101,9 @@ Write '*' for each blank that must be printed."
 
 The programs that this one calls or that call it, those of its file, and in a library without mill programs all others, count as lathe programs too, unless their own text is a mill's (Y, a length offset, M6). The message names the file and line where the sign was seen.
 
-Name a machine profile with 'machine = \"lathe\"', or with 'machine = \"mill\"' if the program is for a mill after all."
+A library in which some programs look like a lathe's and none like a mill's is read as a lathe's if its profile says no kind of machine; a note names the sign. This code is for what is left: libraries of both kinds, and profiles that say 'machine = \"mill\"'.
+
+Name a machine profile with 'machine = \"lathe\"', or with 'machine = \"mill\"' if the program is for a mill after all. Programs of two machines in one folder can be two libraries of macroglot.toml: 'only' and 'except' say which files are of which."
 
     "0350" ComputedCode Note "computed code"
 "The number of the G or M code is computed, so its meaning depends on the value when the program runs. Only a control with the same codes can do the same. A code that ends or calls a program is not followed.
@@ -132,6 +134,11 @@ Leave the point out."
 "No source says whether the words of this block act before the modal call ends or after it. The conversion takes them to act after it.
 
 Put them into a block of their own."
+
+    "0356" CodeSystem Error "of another G code system"
+"A lathe's control is set to one of several G code systems, in which the same code means different things: G90 is a turning pass in one and absolute coordinates in another. The profile does not say which, so the programs are read by the usual one. The message names a code that this system has not, or not so. All programs of the library are for one machine, so all of them are refused, also those without such a code.
+
+Write the system into the machine profile: 'gcode_system' under [settings]. The control's parameters show it."
         }
     };
 }

@@ -12,6 +12,7 @@ use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::StartMode;
+use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::may_come_back;
 use crate::ir::{BlockId, Callee, Expr, Module, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
@@ -71,6 +72,22 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         changed = true;
     }
     changed
+}
+
+/// By program, the groups whose mode it takes from the machine: it comes to a use of modes before it names them. Of programs that
+/// others call none, for they begin in what their callers set.
+pub fn rests_on(module: &Module) -> Vec<BTreeSet<Group>> {
+    let called = CalledPrograms::of(module);
+    let counted = Counted::of(module);
+    let mut all = vec![BTreeSet::new(); module.programs.len()];
+    for root in uncalled(module, &called) {
+        if let (Some(named), Some(rests)) = (named_first(&module.programs[root]), all.get_mut(root)) {
+            let open =
+                StartMode::GROUPS.into_iter().filter(|group| counted.has(*group) && !named.contains(group));
+            *rests = open.collect();
+        }
+    }
+    all
 }
 
 /// Takes out what the target begins in anyway.

@@ -2,7 +2,7 @@
 //!
 //! From it a later run knows which files are stale, which a person changed since, and whose source is gone.
 
-use crate::dialect::Control;
+use crate::dialect::{Control, Machine};
 use crate::library::inputs::same_file;
 use crate::library::outputs::{read_file, read_text};
 use crate::library::places::slashed;
@@ -60,7 +60,9 @@ pub fn profiles_of(source: &Control, target: &Control) -> String {
     let text = |control: &Control| {
         let files = control.profile().files().map(|path| fs::read(path).unwrap_or_default());
         let files: Vec<Vec<u8>> = files.collect();
-        [control.name().as_bytes(), &[0], &files.join(&0)].concat()
+        // A lathe's programs may show the kind of machine that no profile says.
+        let kind: &[u8] = if control.machine() == Machine::Lathe { b" lathe" } else { b"" };
+        [control.name().as_bytes(), kind, &[0], &files.join(&0)].concat()
     };
     sha256(format!("{} {}", sha256(&text(source)), sha256(&text(target))).as_bytes())
 }

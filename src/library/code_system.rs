@@ -1,0 +1,279 @@
+//! Lathe programs of another G code system than the one that they are read by.
+//!
+//! Law: where no profile says the system of a lathe whose control has several, its programs are read by the table's. A code
+//! that this system has not, or that it has as something that the block cannot be, and that another one has, says that the
+//! machine is set to another. Then no program of the library is read: G98 is a feed a minute in one system and a return in
+//! another, and a program without any such code would be read wrongly without a sign of it.
+//! Counter-example: a code that no system has is the machine builder's, and a code that the profile gives a program is a call.
+
+use super::Input;
+use super::machine_kind::{names_machine, place};
+use crate::canon::{Group, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{CODE_SYSTEM, CodeMeaning, Control, Plain};
+use crate::ir::Module;
+use crate::syntax::{ExprKind, ItemKind, for_each_item, parse_file};
+use crate::text::Span;
+
+/// A code that shows another system: where it is, and what.
+struct Sign {
+    file: usize,
+    span: Span,
+    what: String,
+}
+
+/// Refuses the programs of a library in which a code shows another system than the one that is assumed.
+pub(super) fn report(module: &Module, inputs: &[Input], control: &Control, found: &mut [Vec<Diagnostic>]) {
+    let Some((system, row)) = control.open_code_system() else { return };
+    let systems = Systems::of(control, system, &row.values);
+    let signs = inputs.iter().enumerate().filter_map(|(file, input)| systems.sign(file, input));
+    let signs: Vec<Sign> = signs.collect();
+    let Some(first) = signs.first() else { return };
+    let values =
+        systems.others.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
+    let help = format!(
+        "write {CODE_SYSTEM} = {values} under [settings] in the machine's profile, or {CODE_SYSTEM} = \"{system}\" if it is this one after \
+         all: the control's parameters show which it is"
+    );
+    for (program, found) in module.programs.iter().zip(found) {
+        let start = program.site.span.start;
+        let mates = module.programs.iter().filter(|other| other.file == program.file);
+        let end = mates.map(|other| other.site.span.start).filter(|other| *other > start).min();
+        let place_of_own = start..end.unwrap_or(u32::MAX);
+        let is_own = |sign: &&Sign| sign.file == program.file && place_of_own.contains(&sign.span.start);
+        let (span, what) = match signs.iter().find(is_own) {
+            Some(sign) => (sign.span, sign.what.clone()),
+            // What says nothing to a machine is the same in all systems.
+            None if !names_machine(program) => continue,
+            None => {
+                let there = place(inputs, first.file, first.span);
+                let what = format!("the library shows another G code system: in {there}, {}", first.what);
+                (program.site.span, what)
+            }
+        };
+        found.push(Diagnostic::new(Code::CodeSystem, span, what).with_help(help.clone()));
+    }
+}
+
+/// The systems of a control.
+struct Systems<'c> {
+    /// The one that is assumed.
+    own: &'c Control,
+    name: &'c str,
+    /// The others, by name.
+    others: Vec<(String, Control)>,
+}
+
+/// A block as its words say: its letters with their values, and where each G code stands.
+#[derive(Default)]
+struct Words {
+    all: Vec<(char, Option<f64>)>,
+    codes: Vec<(f64, Span)>,
+}
+
+impl Words {
+    fn has(&self, letters: &str) -> bool {
+        self.all.iter().any(|(letter, _)| letters.contains(*letter))
+    }
+}
+
+impl<'c> Systems<'c> {
+    fn of(own: &'c Control, name: &'c str, values: &[String]) -> Self {
+        let others = values.iter().filter(|value| *value != name).filter_map(|value| {
+            let mut profile = own.profile().clone();
+            profile.settings.insert(CODE_SYSTEM.into(), Plain::Word(value.clone()));
+            Some((value.clone(), Control::new(own.entry(), profile).ok()?))
+        });
+        Self { own, name, others: others.collect() }
+    }
+
+    /// The first code of a file that shows another system.
+    fn sign(&self, file: usize, input: &Input) -> Option<Sign> {
+        let mut fed = false;
+        for block in parse_file(&input.bytes, self.own.entry().parse_items).blocks {
+            let mut words = Words::default();
+            for_each_item(&block.items, &mut |item| {
+                fed &= !matches!(item.kind, ItemKind::Program(_));
+                let ItemKind::Word(word) = &item.kind else { return };
+                let value = word.value.as_ref().and_then(|value| match &value.kind {
+                    ExprKind::Number(number) => Some(number.value),
+                    _ => None,
+                });
+                words.all.push((word.letter, value));
+                words.codes.extend(value.filter(|_| word.letter == 'G').map(|value| (value, item.span)));
+            });
+            fed |= words.has("FE");
+            for (code, span) in &words.codes {
+                if let Some(what) = self.other(*code, &words, fed) {
+                    return Some(Sign { file, span: *span, what });
+                }
+            }
+        }
+        None
+    }
+
+    /// Why a code is of another system; none if it may be of the assumed one. `fed` is true where a feed or a lead stands in
+    /// this block or before.
+    fn other(&self, code: f64, words: &Words, fed: bool) -> Option<String> {
+        if self.own.alias('G', code).is_some() || self.own.site_code('G', code).is_some() {
+            return None;
+        }
+        let rows = self.others.iter().filter_map(|(name, control)| {
+            let row = control.code('G', code, &words.all)?;
+            Some((name.as_str(), row))
+        });
+        let rows: Vec<(&str, &CodeMeaning)> = rows.collect();
+        let row = self.own.code('G', code, &words.all);
+        let differs = |op: Op| rows.iter().any(|(_, other)| other.op != op);
+        let why = match row.map(|row| row.op) {
+            None if rows.is_empty() => return None,
+            None => "no code of it",
+            Some(op) if !differs(op) => return None,
+            Some(op) if is_pass(op) && self.moves_besides(code, words) => {
+                "a move in it, and the block has another one"
+            }
+            Some(op) if is_pass(op) && !words.has("XZUW") => {
+                "a pass along X and Z in it, and the block has neither"
+            }
+            Some(Op::ThreadingPass) if !fed => "a pass of a thread in it, and no lead stands before",
+            Some(op) if op.group() == Group::Units && self.passes(&rows, words) => {
+                "a unit in it, and the block is a pass"
+            }
+            Some(_) => return None,
+        };
+        Some(format!("G code system {} is assumed, G{code} is {why}; {}", self.name, told(&rows)))
+    }
+
+    /// True where the block has another code of the motion's group.
+    fn moves_besides(&self, code: f64, words: &Words) -> bool {
+        let others = words.codes.iter().filter(|(other, _)| *other != code);
+        let mut ops =
+            others.filter_map(|(other, _)| self.own.code('G', *other, &words.all)).map(|row| row.op);
+        ops.any(|op| op.group() == Group::Motion)
+    }
+
+    /// True for a block that is a pass by another system: both axes and a feed, and no code that moves.
+    fn passes(&self, rows: &[(&str, &CodeMeaning)], words: &Words) -> bool {
+        let is_whole = words.has("XU") && words.has("ZW") && words.has("F");
+        is_whole && rows.iter().any(|(_, row)| is_pass(row.op)) && !self.moves_besides(f64::NAN, words)
+    }
+}
+
+fn is_pass(op: Op) -> bool {
+    matches!(op, Op::TurningPass | Op::ThreadingPass | Op::FacingPass)
+}
+
+/// What a code is in other systems: `in B and C it is feed per turn`.
+fn told(rows: &[(&str, &CodeMeaning)]) -> String {
+    let mut by_meaning: Vec<(String, Vec<&str>)> = Vec::new();
+    for (name, row) in rows {
+        let meaning = meant(row.op);
+        match by_meaning.iter_mut().find(|(known, _)| *known == meaning) {
+            Some((_, names)) => names.push(name),
+            None => by_meaning.push((meaning, vec![name])),
+        }
+    }
+    let all = by_meaning.iter().map(|(meaning, names)| format!("in {} it is {meaning}", names.join(" and ")));
+    all.collect::<Vec<_>>().join(", ")
+}
+
+/// What an operation is, in the words of its meaning.
+fn meant(op: Op) -> String {
+    let meaning = op.meaning().split(':').next().unwrap_or_default();
+    let mut letters = meaning.trim().trim_end_matches('.').chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::understood;
+
+    /// What is said of each file, by a profile of a lathe.
+    fn said(more: &str, files: &[&str]) -> Vec<Option<String>> {
+        let inputs = files.iter().enumerate().map(|(at, text)| {
+            let name = format!("f{at}.nc");
+            Input { path: (&name).into(), name, bytes: text.as_bytes().to_vec() }
+        });
+        let inputs: Vec<Input> = inputs.collect();
+        let control =
+            Control::from_profile(&format!("dialect = \"fanuc\"\nmachine = \"lathe\"\n{more}")).unwrap();
+        let library = understood(&inputs, &control);
+        let told = library.found.iter().map(|found| {
+            let of = found.iter().find(|finding| finding.code == Code::CodeSystem)?;
+            assert!(of.help.as_ref().unwrap().contains("gcode_system = \"B\" or \"C\""));
+            Some(of.message.to_string())
+        });
+        told.collect()
+    }
+
+    fn shows(block: &str) -> bool {
+        let told = said("", &[&format!("O1\nT0101\nG0 X50. Z2.\n{block}\nM30\n")]);
+        told[0].is_some()
+    }
+
+    /// By the table of the three systems in facts/fanuc-lathe.md 1.
+    #[test]
+    fn codes_that_the_usual_system_has_not() {
+        for block in [
+            "G77 X48. Z-20. F.2",
+            "G78 X48. Z-20. F1.5",
+            "G79 X20. Z-1. F.2",
+            "G24 X20. Z-1. F.2",
+            "G33 Z-20. F1.5",
+            "G91 G1 Z-2. F.1",
+            "G95 G1 Z-20. F.2",
+            "G90 G0 X50. Z2.",
+            "G90",
+            "G94 G1 Z-20. F100.",
+            "G92 S2000",
+            "G92 X200. Z100.",
+            "G20 X48. Z-20. F.2",
+            "G21 X48. Z-20. F1.5",
+        ] {
+            assert!(shows(block), "{block}");
+        }
+    }
+
+    #[test]
+    fn codes_of_the_usual_system() {
+        for block in [
+            "G90 X48. Z-20. F.2\nX46.",
+            "G90 U-2. W-20. F.2",
+            "G92 X48. Z-20. F1.5\nG92 X47.5",
+            "G94 X20. Z-1. F.2",
+            "G20 G99 G1 Z-20. F.01",
+            "G21",
+            "G98 G1 Z-20. F100.",
+            "G50 S2000",
+            "G32 Z-20. F1.5",
+            "G71 U2. R1.\nG71 P10 Q20 U.4 W.1 F.2\nN10 G0 X40.\nN20 G1 Z-20.\nG70 P10 Q20",
+        ] {
+            assert!(!shows(block), "{block}");
+        }
+    }
+
+    #[test]
+    fn one_code_speaks_for_the_library() {
+        let other = "O2\nG98 G1 X5. F100.\nM30\n";
+        let counts = "O3\n#500=#500+1\nM99\n";
+        let told = said("", &["O1\nG95 G1 Z-2. F.2\nM30\n", other, counts]);
+        assert_eq!(
+            told[0].as_deref(),
+            Some("G code system A is assumed, G95 is no code of it; in B and C it is feed per turn")
+        );
+        assert!(told[1].as_ref().unwrap().contains("in line 2 of f0.nc, "), "{told:?}");
+        // What says nothing to a machine is the same in all of them.
+        assert_eq!(told[2], None);
+        let profile = "[settings]\ngcode_system = \"B\"";
+        assert_eq!(said(profile, &["O1\nG95 G1 Z-2. F.2\nM30\n", other]), [None, None]);
+    }
+
+    #[test]
+    fn what_the_profile_says_of_a_code_is_no_sign() {
+        let calls = "[parameters]\n6050 = 77";
+        assert_eq!(said(calls, &["O1\nG77 X1. Z2.\nM30\n", "O9010\nM99\n"]), [None, None]);
+        let site = "[[site]]\ncode = \"G79\"\ntext = \"chuck\"\ndo = \"omit\"";
+        assert_eq!(said(site, &["O1\nG79\nM30\n"]), [None]);
+    }
+}

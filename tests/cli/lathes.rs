@@ -1,0 +1,131 @@
+//! Lathes: how a library is known to be one's, and what is said of it.
+
+use super::{Shop, repository, unmarked};
+
+const SHAFT: &str =
+    "O1\n(SHAFT)\nT0101\nG21 G97 S500 M3\nG0 X50. Z2.\nG1 G99 Z-20. F.2\nM98 P2\nG28 U0 W0\nM30\n";
+const CUT: &str = "O2\nG1 X40. F.1\nM99\n";
+const PLATE: &str = "O11\nG21 G17 G90 G40 G80 G94 G54\nT1 M6\nG0 X0. Y0.\nG43 H1 Z5.\nM30\n";
+const SAID: &str =
+    "no profile says the kind of machine: it is taken as a lathe, because of T0101 in shaft.nc:3.";
+
+fn turning() -> Shop {
+    Shop::with(&[("lib/shaft.nc", SHAFT), ("lib/cut.nc", CUT)])
+}
+
+/// The sign stands in one program; the other one has none, and is the same machine's.
+#[test]
+fn a_library_without_a_profile_is_known_by_its_programs() {
+    let shop = turning();
+    let run = shop.run("convert lib --from fanuc --to haas --out out --no-verify --format json");
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert_eq!(run.err.matches(SAID).count(), 1, "{}", run.err);
+    assert!(
+        run.err.contains("machine = \"lathe\"") && run.err.contains("gcode_system = \"A\""),
+        "{}",
+        run.err
+    );
+    assert!(run.out.contains("it is taken as a lathe"), "the report has it too: {}", run.out);
+    // G99 is a feed a turn, on either lathe; read as a mill's it would be a return to R.
+    let text = unmarked(&shop.read("out/shaft.nc"));
+    assert!(text.contains("T101\n") && text.contains("G99") && text.contains("F0.2"), "{text}");
+    // Where the profile says it, nothing is taken.
+    shop.write("m.toml", b"dialect = \"fanuc\"\nmachine = \"lathe\"\n");
+    let told = shop.run("convert lib --from fanuc --to haas --machine m.toml --out told --no-verify");
+    assert!(told.code == 0 && !told.err.contains("taken as a lathe"), "{}", told.err);
+    assert_eq!(shop.read("told/shaft.nc"), shop.read("out/shaft.nc"));
+}
+
+#[test]
+fn it_is_said_once_however_many_machines_it_goes_to() {
+    let shop = turning();
+    let project = "[machines.old]\ndialect = \"fanuc\"\n[machines.one]\ndialect = \"haas\"\n[machines.two]\ndialect = \
+                   \"haas\"\n[libraries.shop]\npath = \"lib\"\nmachine = \"old\"\n[libraries.shop.targets]\none = \
+                   \"a\"\ntwo = \"b\"\n";
+    shop.write("macroglot.toml", project.as_bytes());
+    let run = shop.run("convert --no-verify --quiet");
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert_eq!(run.err.matches(SAID).count(), 1, "{}", run.err);
+    let checked = shop.run("check --no-cache --only read");
+    assert_eq!(checked.err.matches(SAID).count(), 1, "{}", checked.err);
+}
+
+#[test]
+fn a_library_of_two_machines_is_not_guessed() {
+    let shop = turning();
+    shop.write("lib/plate.nc", PLATE.as_bytes());
+    let run = shop.run("convert lib --from fanuc --to haas --out out --no-verify --verbose");
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert!(!run.err.contains("taken as a lathe"), "{}", run.err);
+    assert!(run.out.contains("MG0349") && run.out.contains("`only` and `except`"), "{}", run.out);
+    let files = shop.files();
+    assert!(files.contains_key("out/plate.nc") && !files.contains_key("out/shaft.nc"));
+    // As two libraries both are converted.
+    let project = "[machines.old]\ndialect = \"fanuc\"\n[machines.mill]\ndialect = \"haas\"\n[machines.lathe]\ndialect = \
+                   \"haas\"\n[libraries.milling]\npath = \"lib\"\nonly = [\"plate.nc\"]\nmachine = \
+                   \"old\"\n[libraries.milling.targets]\nmill = \"m\"\n[libraries.turning]\npath = \"lib\"\nexcept = \
+                   [\"plate.nc\"]\nmachine = \"old\"\n[libraries.turning.targets]\nlathe = \"t\"\n";
+    shop.write("macroglot.toml", project.as_bytes());
+    let run = shop.run("convert --no-verify --quiet");
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert_eq!(run.err.matches(SAID).count(), 1, "{}", run.err);
+    let files = shop.files();
+    assert!(
+        files.contains_key("m/plate.nc")
+            && files.contains_key("t/shaft.nc")
+            && files.contains_key("t/cut.nc")
+    );
+    assert!(!files.contains_key("m/shaft.nc") && !files.contains_key("t/plate.nc"));
+}
+
+/// G95 is no code of system A: no program of its library is read by that, not even one that has no such code.
+#[test]
+fn another_code_system_is_asked_for_by_its_key() {
+    let shop = turning();
+    shop.write("lib/face.nc", b"O3\nT0202\nG21 G95\nG1 X0. F.2\nM30\n");
+    let run = shop.run("convert lib --from fanuc --to haas --out out --no-verify --verbose");
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert!(run.out.contains("3 refused"), "{}", run.out);
+    assert!(run.out.contains("MG0356") && run.out.contains("gcode_system = \"B\" or \"C\""), "{}", run.out);
+    shop.write("m.toml", b"dialect = \"fanuc\"\n[settings]\ngcode_system = \"B\"\n");
+    let told = shop.run("convert lib/face.nc --from fanuc --to haas --machine m.toml --no-verify");
+    assert!(told.code == 0 && told.out.contains("G99"), "{}{}", told.out, told.err);
+}
+
+/// What the survey takes is a line to fill in: nothing is decided for the shop.
+#[test]
+fn a_survey_says_it_and_asks() {
+    let shop = turning();
+    let run = shop.run("survey lib --from fanuc --to haas --write m.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains(&format!("machine   {SAID}")), "{}", run.out);
+    let (source, target) = (shop.read("m.toml"), shop.read("m-to-haas.toml"));
+    for line in [
+        "#? machine = \"lathe\" # or \"mill\": T0101 in shaft.nc:3\n",
+        "#? axes = [\"X\", \"Z\"]",
+        "#? gcode_system = \"A\" # or \"B\" or \"C\": ",
+    ] {
+        assert!(source.contains(line), "{source}");
+    }
+    assert!(target.contains("#? machine = \"lathe\" # as the programs are a lathe's\n"), "{target}");
+    // Answered, it is not asked again.
+    shop.write("m.toml", source.replace("#? machine", "machine").replace("#? gcode", "gcode").as_bytes());
+    let again = shop.run("survey lib --from fanuc --to haas --write m.toml");
+    assert!(again.code == 0 && !again.out.contains("taken as"), "{}{}", again.out, again.err);
+    assert!(!shop.read("m.toml").contains("#? gcode_system"), "{}", shop.read("m.toml"));
+}
+
+/// The seminar's lathe programs, on the machines that ship: M910 calls O9020, and #5002 is Z.
+#[test]
+fn the_profiles_that_ship_are_lathes() {
+    let shop = Shop::with(&[(
+        "a.nc",
+        "O1\nT0101\nG0 X20. Z5.\nM910 A68. B3. S500 T14 Y1. D20. F.1 X0.\n#1=#5002\nG0 Z[#1+1.]\nM30\n",
+    )]);
+    let from = repository("machines/fanuc-0i-t.toml");
+    let to = repository("machines/haas-st.toml");
+    let run =
+        shop.run(&format!("convert a.nc --from fanuc --to haas --machine {from} --machine {to} --no-verify"));
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(run.out.contains("P9020") && run.out.contains("T101"), "{}", run.out);
+}
