@@ -35,7 +35,7 @@ struct Move {
 impl Profile {
     /// Reads the blocks, as a cycle allows them.
     pub fn read(machine: &Machine, op: Op, contour: &Contour, trace: &mut Trace) -> Result<Self, Stop> {
-        let mut reader = Reader { machine, at: machine.tool_at(), motion: Op::Rapid, op };
+        let mut reader = Reader { machine, at: machine.tool_at(), motion: Op::Rapid };
         let mut moves = Vec::new();
         for (block, found) in contour.blocks.iter().enumerate() {
             check(op, &found.command, trace)?;
@@ -51,7 +51,7 @@ impl Profile {
         }
         let has = |role: Role| first.is_some_and(|command| command.word(role).is_some());
         let steps = |role: Role| contour.blocks.iter().all(|block| block.command.word(role).is_none());
-        let by_steps = (machine.incremental || steps(Role::X)) && (machine.incremental || steps(Role::Z));
+        let by_steps = machine.incremental || (steps(Role::X) && steps(Role::Z));
         let names = [has(Role::X) || has(Role::StepX), has(Role::Z) || has(Role::StepZ)];
         let rapid = moves.first().is_some_and(|moved| moved.piece.rapid);
         let (pieces, blocks) = cornered(moves, contour.blocks.len())?;
@@ -107,7 +107,6 @@ struct Reader<'m> {
     machine: &'m Machine,
     at: Point,
     motion: Op,
-    op: Op,
 }
 
 impl Reader<'_> {
@@ -186,10 +185,7 @@ impl Reader<'_> {
         let word = |role, chamfer| command.word(role).map(|size| (chamfer, size * unit));
         match (word(Role::CornerRadius, false), word(Role::CornerChamfer, true)) {
             (Some(_), Some(_)) => Err(Stop::unnamed("two corners in one block of a contour")),
-            (round, chamfer) => {
-                let _ = self.op;
-                Ok(round.or(chamfer))
-            }
+            (round, chamfer) => Ok(round.or(chamfer)),
         }
     }
 }
