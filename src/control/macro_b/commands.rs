@@ -60,7 +60,7 @@ impl<'c> Runner<'c> {
             return Err(Halt::Alarm(stop.clone()));
         }
         self.gather(words, meaning, call, &values);
-        let mut command = std::mem::take(&mut self.command);
+        let command = &mut self.command;
         let moves = command.has_axes() && !command.ops.iter().any(|op| keeps_axes(*op));
         let shown = words.shown.as_ref().filter(|_| command.has(Op::Stop));
         if shown.is_some() {
@@ -69,10 +69,9 @@ impl<'c> Runner<'c> {
         let done = if command.is_empty() {
             Ok(())
         } else {
-            self.session.machine.run(&command, &mut self.session.trace)
+            self.session.machine.run(command, &mut self.session.trace)
         };
         command.clear();
-        self.command = command;
         done?;
         if let Some(text) = shown {
             let what = EventKind::Message { text: text.clone() };
