@@ -45,6 +45,7 @@ const SHAPES: &[Shape] = &[
     ("IF-GOTO one after the other", 10_000, "lines", inputs::jumps, MILL),
     ("calls of subroutines", 10_000, "lines", inputs::subs, Done::Verified("fadal", "fanuc")),
     ("small programs, each a file", 100, "programs", inputs::library, Done::Library("fanuc", "haas")),
+    ("the same for a Fadal", 100, "programs", inputs::library, Done::Library("fanuc", "fadal")),
     ("small programs in one file", 100, "programs", inputs::library, MILL),
     ("programs verified against themselves", 37, "programs", inputs::programs, Done::Itself),
     ("nested DO", 10_000, "lines", inputs::nested, Done::Converted),

@@ -214,7 +214,7 @@ impl<'r, 'f> Session<'r, 'f> {
         if let Some(error) = wrong {
             return Err(Halt::Error(error.message.clone()));
         }
-        match block.items.iter().any(|item| item.kind == ItemKind::Unparsed) {
+        match block.items.iter().any(|item| matches!(item.kind, ItemKind::Unparsed)) {
             true => Err(Halt::Error("the block cannot be read".into())),
             false => Ok(()),
         }
@@ -333,9 +333,9 @@ impl<'r, 'f> Session<'r, 'f> {
             computed_codes: self.trace.computed_codes(),
             computed_numbers: self.trace.computed_numbers(),
             arguments: self.trace.arguments(),
-            zeros: self.trace.zeros,
-            nearest: self.trace.nearness.map(|nearness| nearness.end()).unwrap_or_default(),
-            events: self.trace.events,
+            zeros: std::mem::take(&mut self.trace.zeros),
+            nearest: self.trace.nearness.take().map(|nearness| nearness.end()).unwrap_or_default(),
+            events: self.trace.into_events(),
             programs: self.programs,
             variables,
             end,

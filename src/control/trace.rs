@@ -16,6 +16,7 @@ use crate::canon::{Func, Op};
 use crate::dialect::Row;
 use crate::text::Span;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
+use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// One event and the block that caused it.
@@ -128,6 +129,15 @@ const MOST_CODES: usize = 4096;
 /// Computed numbers of variables, and arguments of functions, that a run remembers.
 const MOST_NUMBERS: usize = 4096;
 
+/// Events that a run is given room for ahead, at the most.
+const MOST_AHEAD: usize = 2048;
+
+thread_local! {
+    /// How many events the last run of this thread had: the next one is mostly of the same program. Events are large, and
+    /// a list that grows moves them again and again.
+    static LAST: Cell<usize> = const { Cell::new(0) };
+}
+
 /// The events of a run in the making.
 #[derive(Debug)]
 pub struct Trace {
@@ -167,7 +177,7 @@ impl Trace {
     /// An empty trace that keeps at most so many events.
     pub fn new(limit: usize, confirmed: &[String]) -> Self {
         Self {
-            events: Vec::new(),
+            events: Vec::with_capacity(LAST.get().min(limit).min(MOST_AHEAD)),
             taken: 0,
             at: Place::default(),
             rounded: 0.0,
@@ -184,6 +194,12 @@ impl Trace {
             nearness: None,
             confirmed: confirmed.to_vec(),
         }
+    }
+
+    /// The events of a run that came to its end.
+    pub(super) fn into_events(self) -> Vec<Event> {
+        LAST.set(self.events.len());
+        self.events
     }
 
     /// Notes a comparison of two numbers, for [`Nearness`].

@@ -68,8 +68,13 @@ pub fn round(from: &str, to: &str, inputs: &[Input]) -> Round {
     let home_again = inputs_of(&there, &second);
     let there_again = inputs_of(&home_again, &plain(&home_again, &home, &away));
     let back_again = inputs_of(&there_again, &plain(&there_again, &away, &home));
-    let there_thrice = inputs_of(&back_again, &plain(&back_again, &home, &away));
-    let back_thrice = inputs_of(&there_thrice, &plain(&there_thrice, &away, &home));
+    // The same texts as the time before become the same again.
+    let back_thrice = if back_again == home_again {
+        back_again.clone()
+    } else {
+        let there_thrice = inputs_of(&back_again, &plain(&back_again, &home, &away));
+        inputs_of(&there_thrice, &plain(&there_thrice, &away, &home))
+    };
     let settled = |input: &&Input| !back_again.contains(input);
     let changed = back_thrice.iter().filter(settled).map(|input| input.name.clone()).collect();
     let same =

@@ -131,9 +131,8 @@ impl<'r> Interpreter<'r, '_> {
 
     /// Takes out a dwell of the one time that waits for START.
     fn waits_for_start(&self, read: &mut Read<'_>) -> bool {
-        let waits = self.session.control.number(Question::DwellWaits);
         let time = read.command.word(Role::DwellMs).filter(|_| read.command.has(Op::Dwell));
-        if time.is_none() || time != waits {
+        if time.is_none() || time != self.session.control.number(Question::DwellWaits) {
             return false;
         }
         read.command.ops.retain(|op| *op != Op::Dwell);

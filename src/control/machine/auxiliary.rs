@@ -69,10 +69,11 @@ fn acts_late(machine: &Machine, command: &Command, kind: Auxiliary) -> bool {
     waits || late(kind)
 }
 
-/// True where a block only moves: most do.
+/// True where a block does nothing beside moving: most do not.
 fn only_moves(command: &Command) -> bool {
     let acts = |(role, _): &(Role, f64)| matches!(role, Role::Speed | Role::Tool);
-    command.ops.is_empty() && command.own_code.is_none() && !command.words.iter().any(acts)
+    let is_plain = command.own_code.is_none() && !command.words.iter().any(acts);
+    is_plain && command.ops.iter().all(|op| op.auxiliary().is_none())
 }
 
 fn act(machine: &mut Machine, command: &Command, late: bool, trace: &mut Trace) {

@@ -128,6 +128,14 @@ impl Machine {
 
     /// Takes in the words of a block that sets the frame of coordinates.
     pub(super) fn round_frame(&mut self, op: Op, command: &Command) {
+        use Op::{LocalShift, MirrorOn, RotateOff, RotateOn, ScaleOn, SetPosition, ShiftCancel, WriteWork};
+        let is_of_frame = matches!(
+            op,
+            LocalShift | SetPosition | ShiftCancel | WriteWork | RotateOn | RotateOff | ScaleOn | MirrorOn
+        );
+        if !is_of_frame {
+            return;
+        }
         let off = self.most_off(command, |role| axis(role).is_some());
         let angle = command.word(Role::Angle).map_or(0.0, |angle| self.off(command, Role::Angle, angle));
         let there = self.rounding.axes.iter().fold(0.0f64, |most, axis| most.max(*axis));

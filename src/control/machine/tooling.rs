@@ -8,8 +8,19 @@ use crate::control::trace::{EventKind, Side, Told, Trace};
 
 /// Takes the codes and words of compensation.
 pub(super) fn compensation(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    length(machine, command, trace);
-    radius(machine, command, trace);
+    if compensates(command) {
+        length(machine, command, trace);
+        radius(machine, command, trace);
+    }
+}
+
+/// True where a block has a code or a word of compensation: most have none.
+fn compensates(command: &Command) -> bool {
+    use Op::{LengthMinus, LengthOff, LengthPlus, RadiusLeft, RadiusOff, RadiusRight};
+    let is_code =
+        |op: &Op| matches!(op, LengthPlus | LengthMinus | LengthOff | RadiusOff | RadiusLeft | RadiusRight);
+    let is_word = |(role, _): &(Role, f64)| matches!(role, Role::LengthOffset | Role::RadiusOffset);
+    command.ops.iter().any(is_code) || command.words.iter().any(is_word)
 }
 
 /// Takes the tool word.

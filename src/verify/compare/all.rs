@@ -8,7 +8,7 @@ use super::aligned::{Blocks, aligned};
 use super::exit_state::left_differs;
 use super::kinds::is_cut;
 use super::loose::{Found, farthest};
-use super::observe::Act;
+use super::observe::{Act, What};
 use super::pairs::{Pairs, acts};
 use super::paths::{apart, ends};
 use super::shown::end_differs;
@@ -127,7 +127,11 @@ fn was_found(act: &Act<'_>) -> bool {
 }
 
 fn seen<'r>(act: &Act<'r>) -> Option<(&'r Event, Cow<'r, EventKind>)> {
-    Some((act.event, act.what.clone()))
+    let what = match &act.what {
+        What::Own(what) => Cow::Borrowed(*what),
+        What::Other(what) => Cow::Owned((**what).clone()),
+    };
+    Some((act.event, what))
 }
 
 /// The text of an event's block, without its sequence number and blanks.

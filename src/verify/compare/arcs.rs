@@ -1,9 +1,8 @@
 //! Arcs about one centre, one after the other, which are one arc for whoever watches the tool.
 
-use super::observe::Act;
+use super::observe::{Act, What};
 use super::paths::{apart, axes};
 use crate::control::trace::{EventKind, Plane, Position};
-use std::borrow::Cow;
 
 /// How far the centres of two pieces may lie apart, millimetres: what five digits of their ends make of one centre.
 const CENTRES: f64 = 1e-4;
@@ -20,7 +19,7 @@ pub fn joined(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
         });
         match (whole, out.last_mut()) {
             (Some(whole), Some(last)) => {
-                last.what = Cow::Owned(whole);
+                last.what = What::other(whole);
                 last.rounded = last.rounded.max(act.rounded);
             }
             _ => out.push(act),

@@ -8,7 +8,7 @@ use crate::control::Run;
 use crate::control::trace::{Event, EventKind, Side, Spindle, Told};
 use crate::dialect::Control;
 use crate::verify::sides::Side as Library;
-use std::borrow::Cow;
+use std::ops::Deref;
 
 /// Something that an observer could tell.
 #[derive(Clone, Debug)]
@@ -16,13 +16,47 @@ pub struct Act<'r> {
     /// The event.
     pub event: &'r Event,
     /// What the observer tells of it: a stop at which the operator enters a value is a text and a question.
-    pub what: Cow<'r, EventKind>,
+    pub what: What<'r>,
     /// By how much words rounded put it off, millimetres; of an arc in pieces the most of any.
     pub rounded: f64,
     /// What is known of the event.
     pub told: Told,
     /// Of a text, how many characters more the control would have shown; none if it knows no limit.
     pub room: Option<usize>,
+}
+
+/// What an observer tells of an event: the event as it is, or something else. Acts are moved from list to list, so it is
+/// small.
+#[derive(Clone, Debug)]
+pub enum What<'r> {
+    /// The event.
+    Own(&'r EventKind),
+    /// Something else.
+    Other(Box<EventKind>),
+}
+
+impl Deref for What<'_> {
+    type Target = EventKind;
+
+    fn deref(&self) -> &EventKind {
+        match self {
+            What::Own(what) => what,
+            What::Other(what) => what,
+        }
+    }
+}
+
+impl PartialEq for What<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl What<'_> {
+    /// Something else than the event.
+    pub fn other(what: EventKind) -> Self {
+        What::Other(Box::new(what))
+    }
 }
 
 /// The settings that a machine has before a program says anything. A spindle that was found running and is stopped keeps
@@ -135,7 +169,7 @@ impl<'r> Observer<'_, 'r> {
             }
             self.out.push(Act {
                 event,
-                what: Cow::Borrowed(&event.what),
+                what: What::Own(&event.what),
                 rounded: event.rounded,
                 told: event.told,
                 room: None,
@@ -154,12 +188,12 @@ impl<'r> Observer<'_, 'r> {
                 let asks = next.is_some_and(|next| matches!(next.what, EventKind::Asked { .. }));
                 match asks.then(|| prompt(text, self.side.control)) {
                     Some("") => return,
-                    Some(text) => (Cow::Owned(EventKind::Output { text: text.to_owned() }), room),
-                    None => (Cow::Borrowed(&event.what), room),
+                    Some(text) => (What::other(EventKind::Output { text: text.to_owned() }), room),
+                    None => (What::Own(&event.what), room),
                 }
             }
-            EventKind::Alarm(stop) => (Cow::Borrowed(&event.what), room("message.alarm", &stop.text)),
-            what => (Cow::Borrowed(what), None),
+            EventKind::Alarm(stop) => (What::Own(&event.what), room("message.alarm", &stop.text)),
+            what => (What::Own(what), None),
         };
         self.out.push(Act { event, what, rounded: event.rounded, told: event.told, room });
         if is_pause(&event.what) {

@@ -3,12 +3,11 @@
 //! An operator sees the same: the text, and a machine that stands. So a text that is shown right before a stop is read as
 //! the message of that stop, on both sides, and `ALARM 1 TEXT` before a halt of the control as the program's own alarm.
 
-use super::observe::{Act, prompt};
+use super::observe::{Act, What, prompt};
 use crate::canon::{Op, Sys};
 use crate::control::trace::{EventKind, Spindle};
 use crate::control::{End, Stop};
 use crate::dialect::Control;
-use std::borrow::Cow;
 
 /// True if the control has no stop with a message and no alarm of the program's own, but shows texts.
 pub fn lacks_messages(control: &Control) -> bool {
@@ -28,7 +27,7 @@ pub fn as_messages<'r>(acts: Vec<Act<'r>>, control: &Control) -> Vec<Act<'r>> {
                 // It says nothing but which variable is asked for.
                 out.pop();
             } else {
-                last.what = Cow::Owned(EventKind::Output { text });
+                last.what = What::other(EventKind::Output { text });
             }
         }
         let text = out.iter().rposition(|earlier| !is_switched_off(&earlier.what));
@@ -39,7 +38,7 @@ pub fn as_messages<'r>(acts: Vec<Act<'r>>, control: &Control) -> Vec<Act<'r>> {
         match shown {
             Some((at, what)) => {
                 out.remove(at);
-                out.push(Act { what: Cow::Owned(what), ..act });
+                out.push(Act { what: What::other(what), ..act });
             }
             None => out.push(act),
         }

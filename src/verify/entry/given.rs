@@ -93,6 +93,9 @@ fn gives(job: &Job<'_>, caller: ProgramRef, given: Option<&EntryState>) -> Shown
     let links = job.source.links();
     let callees = links.callees(caller).iter().copied().filter(|callee| *callee != caller);
     let mut shown = Shown { missed: callees.collect(), ..Shown::default() };
+    if !links.may_call(caller) {
+        return shown;
+    }
     for (at, (_, run)) in scenarios_in(job, caller, MORE_LOOKS, given).enumerate() {
         if at >= LOOKS && shown.missed.is_empty() {
             break;

@@ -108,6 +108,11 @@ impl Links {
         all.any(|at| at == program || self.open.contains(&at))
     }
 
+    /// True for a program that may call another one: one that its text names, or one that it does not name.
+    pub fn may_call(&self, program: ProgramRef) -> bool {
+        !self.callees(program).is_empty() || self.open.contains(&program)
+    }
+
     /// True for each of A, B and C that a program has a word of.
     pub fn rotary(&self) -> [bool; 3] {
         self.rotary
@@ -169,7 +174,8 @@ fn callees_of(side: &ProgramTexts<'_>, program: ProgramRef) -> Vec<ProgramRef> {
     all.filter(|callee| seen.insert(*callee)).collect()
 }
 
-/// True for a block that may call what its text does not name: by a number that is computed, or by a code of its own.
+/// True for a block that may call what its text does not name: by a number that is computed, by a code of its own, or by a
+/// code that parameters make a call.
 fn calls_something(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
     let words = || {
         items.iter().filter_map(|item| match &item.kind {
@@ -184,6 +190,7 @@ fn calls_something(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
     let names = words().any(|word| word.letter == 'P' && number(word).is_some());
     words().any(|word| match word.letter {
         'P' => number(word).is_none(),
+        _ if number(word).is_some_and(|number| side.control.alias(word.letter, number).is_some()) => true,
         'G' | 'M' => {
             let row = number(word).and_then(|number| side.control.code(word.letter, number, &[]));
             row.is_none_or(|row| match row.op {
