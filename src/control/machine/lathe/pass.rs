@@ -21,7 +21,7 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
     if command.of(Group::Motion).is_some() {
         machine.lathe.pass = Pass::default();
     }
-    let own = [Role::X, Role::StepX, Role::Z, Role::StepZ, Role::Taper];
+    let own = [Role::X, Role::StepX, Role::Z, Role::StepZ, Role::Taper, Role::TaperZ];
     if command.axes().any(|(axis, _)| axis != 0 && axis != 2) {
         return Err(alarm("PS0330", "a pass of an axis other than X and Z"));
     }
@@ -59,7 +59,8 @@ impl Pass {
         };
         self.x = place(Role::X, Role::StepX, a[0], 0.5).or(self.x);
         self.z = place(Role::Z, Role::StepZ, a[1], 1.0).or(self.z);
-        self.taper = command.word(Role::Taper).map_or(self.taper, |taper| taper * unit);
+        let taper = command.word(Role::Taper).or(command.word(Role::TaperZ));
+        self.taper = taper.map_or(self.taper, |taper| taper * unit);
     }
 }
 
