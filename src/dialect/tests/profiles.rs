@@ -21,8 +21,8 @@ fn profiles_say_what_is_wrong_and_where() {
         "p.toml:2:1: MG0203: unknown key 'machin' (did you mean 'machine'?)",
     );
     wrong("dialect = \"fanuc\"\nmachine = \"router\"", "p.toml:2:11");
-    let lathe = "dialect = \"haas\"\nmachine = \"lathe\"";
-    wrong(lathe, "p.toml:2:11: MG0203: the table of Haas has no rows for a lathe");
+    let lathe = "dialect = \"fadal\"\nmachine = \"lathe\"";
+    wrong(lathe, "p.toml:2:11: MG0203: the table of Fadal has no rows for a lathe");
     wrong(
         "dialect = \"fanuc\"\n[parameters]\n6004.1 = 1",
         "p.toml:3:6: MG0203: Fanuc Custom Macro B has no setting 'parameter.6004.1'",
