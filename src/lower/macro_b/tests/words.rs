@@ -96,7 +96,7 @@ fn lathe_programs() {
     refuses("fanuc", "G50S3000", &[Code::LatheProgram]);
     refuses("fanuc", "T0303", &[Code::LatheProgram]);
     means("fanuc", "T0303 M6", "0: nc tool=303 tool.change | stray");
-    means("fanuc:machine = \"lathe\"", "G1U5.0", "0: nc motion.linear axis.u=5 | stray");
+    means("fanuc:machine = \"lathe\"", "G1U5.0", "0: nc motion.linear step.x=5 | stray");
     means("fanuc", "T12M6", "0: nc tool=12 tool.change | stray");
     means("fanuc", "T0012M6", "0: nc tool=12 tool.change | stray");
 }
