@@ -315,6 +315,20 @@ fn a_backplot_shows_the_part() {
 #[test]
 fn a_lathe_is_drawn_over_z_and_x() {
     let profile = "dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"";
-    let plot = drawings(profile, "O1\nG0 X50. Z2.\nG1 Z-20. F0.2\nX60.\nM30\n");
-    assert!(plot.contains(">ZX, mm<") && !plot.contains(">XY, mm<"), "{plot}");
+    let plot = drawings(profile, "O1\nG97 S500 M3\nG0 X50. Z2.\nG1 Z-20. F0.2\nX70.\nM30\n");
+    assert!(plot.contains(">ZX, mm, X in diameters<") && !plot.contains(">XY, mm<"), "{plot}");
+    // From 50 to 70 in diameter is 10 up, and 22 along: what is drawn is twice as wide as it is high, and a tick at 60 lies
+    // in the middle of its height.
+    assert!(plot.contains(">60<") && plot.contains(">-20<"), "{plot}");
+    let cut = plot.lines().find(|line| line.contains("polyline") && line.contains("1.4")).expect("a cut");
+    let points: Vec<(f64, f64)> = cut
+        .split_once("points=\"")
+        .map(|(_, rest)| rest.trim_end_matches("\"/>"))
+        .into_iter()
+        .flat_map(|places| places.split(' '))
+        .filter_map(|place| place.split_once(','))
+        .map(|(x, y)| (x.parse().expect("x"), y.parse().expect("y")))
+        .collect();
+    let (along, up) = (points[0].0 - points[1].0, points[1].1 - points[2].1);
+    assert!((along / up - 2.2).abs() < 0.01, "{points:?}");
 }

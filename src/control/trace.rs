@@ -115,6 +115,8 @@ pub struct Zero {
     pub inch: bool,
     /// The plane of arcs and of cutter compensation.
     pub plane: Plane,
+    /// True where X is a diameter.
+    pub diameters: bool,
 }
 
 /// Changes of the zero point that a run remembers.

@@ -57,7 +57,7 @@ const MARKS: usize = 2000;
 const LETTERS: usize = 140;
 
 /// The path as an SVG with two drawings: XY from above, and isometric. A path without a move along Y, as a
-/// lathe's, and one whose cuts are all in the ZX plane, is drawn over Z and X. The rapids before the first cut and after the last one end at the
+/// lathe's, and one whose cuts are all in the ZX plane, is drawn over Z and X; of a lathe as it is, with diameters at X. The rapids before the first cut and after the last one end at the
 /// edge of a drawing, so that the part fills it. Lengths are in the unit of the program; of one that uses both, in
 /// millimetres.
 pub fn backplot(run: &Run, title: &str, coordinates: Coordinates) -> String {
@@ -151,8 +151,10 @@ fn draw(path: &Path, drawing: &Drawing, corner: (f64, f64), broken: bool, out: &
     let project = drawing.project;
     let bounds = Bounds::of(path.framed().into_iter().map(project));
     let unit = path.unit();
-    let view = View::new(bounds, corner, SIZE).in_unit(unit);
+    let turned = path.diameters && drawing.axes == Some(('Z', 'X'));
+    let view = View::new(bounds, corner, SIZE).in_unit(unit).with_diameters(turned);
     let name = match drawing.axes {
+        Some((across, up)) if turned => format!("{across}{up}, {unit}, {up} in diameters"),
         Some((across, up)) => format!("{across}{up}, {unit}"),
         None => format!("isometric, {unit}"),
     };

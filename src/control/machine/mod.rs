@@ -236,7 +236,7 @@ impl Machine {
     /// Where the program counts from.
     fn zero(&self) -> Zero {
         let at = std::array::from_fn(|axis| self.frame.shift(axis) - self.frame.local[axis]);
-        Zero { at, inch: self.inch, plane: self.plane }
+        Zero { at, inch: self.inch, plane: self.plane, diameters: self.rules.lathe }
     }
 
     /// True for a lathe.

@@ -102,7 +102,9 @@ pub(super) fn drawings(both: &Both, sheet: &Sheet, id: usize, top: f64, out: &mu
     for (column, drawing) in [both.all.flat(), askew].into_iter().enumerate() {
         let corner = (sheet.margin + column as f64 * (sheet.size + sheet.margin), top);
         let bounds = Bounds::of(both.framed().into_iter().map(drawing.project));
-        let view = View::new(bounds, corner, sheet.size).in_unit(both.source.unit());
+        let turned = both.source.diameters && drawing.axes == Some(('Z', 'X'));
+        let view = View::new(bounds, corner, sheet.size);
+        let view = view.in_unit(both.source.unit()).with_diameters(turned);
         frame(both, sheet, &view, &drawing, (id, column), corner, out);
         side(&both.source, sheet, &view, &drawing, ["sr", "sc"], out);
         if let Some(target) = &both.target {
@@ -128,6 +130,7 @@ fn frame(
 ) {
     let (size, unit) = (sheet.size, both.source.unit());
     let name = match drawing.axes {
+        Some((across, up)) if view.tells_diameters() => format!("{across}{up}, {unit}, {up} in diameters"),
         Some((across, up)) => format!("{across}{up}, {unit}"),
         None => format!("isometric, {unit}"),
     };

@@ -54,6 +54,8 @@ pub(super) struct Path {
     pub tools: Vec<Option<f64>>,
     /// True where the lengths are inches.
     pub inch: bool,
+    /// True where X was told as a diameter: it is drawn as a radius.
+    pub diameters: bool,
     /// True where they count from the work zero.
     pub from_work: bool,
     /// True where moves count from more than one work zero.
@@ -105,6 +107,7 @@ impl Path {
             if is_move(&event.what) {
                 path.units[usize::from(zero.inch)] = true;
                 path.plane = zero.plane;
+                path.diameters |= zero.diameters;
                 let above = [zero.at[0], zero.at[1]];
                 path.many_zeros |= *first.get_or_insert(above) != above;
             }
@@ -123,16 +126,23 @@ impl Path {
         let marks = names.iter().zip(marked);
         let marks = marks.filter_map(|(name, mark)| Some(Mark { at: mark?.1, name: name.name.clone() }));
         path.marks = marks.collect();
+        if path.diameters {
+            path.each_point(|[x, y, z]| [x / 2.0, y, z]);
+        }
         path
+    }
+
+    fn each_point(&mut self, change: impl Fn(Point) -> Point) {
+        let strokes = self.strokes.iter_mut().flat_map(|stroke| &mut stroke.points);
+        let marks = self.marks.iter_mut().map(|mark| &mut mark.at);
+        for point in strokes.chain(&mut self.holes).chain(&mut self.touches).chain(marks) {
+            *point = change(*point);
+        }
     }
 
     fn in_inches(mut self) -> Self {
         self.inch = true;
-        let strokes = self.strokes.iter_mut().flat_map(|stroke| &mut stroke.points);
-        let marks = self.marks.iter_mut().map(|mark| &mut mark.at);
-        for point in strokes.chain(&mut self.holes).chain(&mut self.touches).chain(marks) {
-            *point = point.map(|value| value / INCH);
-        }
+        self.each_point(|point| point.map(|value| value / INCH));
         self.strokes.iter_mut().for_each(|stroke| stroke.aside /= INCH);
         self
     }

@@ -34,6 +34,8 @@ pub struct View {
     scale: f64,
     shift: (f64, f64),
     unit: &'static str,
+    /// What stands at a tick of the upward axis for a length of 1: 2 where radii are drawn and diameters told.
+    upward: f64,
 }
 
 impl View {
@@ -44,12 +46,22 @@ impl View {
         let span = if span > 0.0 { span } else { 1.0 };
         let scale = size * 0.86 / span;
         let shift = (corner.0 + (size - wide * scale) / 2.0, corner.1 + (size + high * scale) / 2.0);
-        Self { bounds, corner, size, scale, shift, unit: "mm" }
+        Self { bounds, corner, size, scale, shift, unit: "mm", upward: 1.0 }
     }
 
     /// The same with another unit of length than millimetres.
     pub fn in_unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
+    }
+
+    /// The same with diameters at the upward axis, where radii are drawn.
+    pub fn with_diameters(self, diameters: bool) -> Self {
+        Self { upward: if diameters { 2.0 } else { 1.0 }, ..self }
+    }
+
+    /// True where diameters stand at the upward axis.
+    pub fn tells_diameters(&self) -> bool {
+        self.upward > 1.0
     }
 
     /// The larger side of the extent, millimetres.
@@ -127,7 +139,7 @@ impl View {
                 "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{}</text>",
                 left - 4.0,
                 y + 4.0,
-                digits(at)
+                digits(at * self.upward)
             );
         }
     }
