@@ -6,8 +6,9 @@
 //! otherwise.
 
 use super::cycle_values::{Given, Values, nc_of, replace, resolve, values_of};
+use super::place::Place;
 use super::settings::{Kind, setting, takes};
-use super::spring_passes::{Place, passes};
+use super::spring_passes::passes;
 use super::straight::entered_straight;
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
@@ -133,6 +134,7 @@ impl Run<'_> {
                 new.extend(self.setup(kind, stmt));
                 continue;
             }
+            place.enter(&stmt);
             place.step(&stmt);
             if let Some(kind) = cycle_of(&stmt) {
                 let (made, more) = self.cycle(kind, stmt, place, (old.make_contiguous(), ends));

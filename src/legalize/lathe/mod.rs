@@ -5,6 +5,7 @@ pub mod counts;
 mod cycle_values;
 pub mod cycle_words;
 pub mod other_kind;
+pub mod place;
 pub mod roughing;
 pub mod settings;
 pub mod spring_passes;

@@ -4,54 +4,10 @@
 //! (docs/lathe.md, P5, P7, P8). Side conditions: the place where the cycle begins, the end, the height, the taper and the angle are known numbers,
 //! and the next block that moves says how. Error bound: half of the sixth decimal. Counter-example: a start that a called program leaves.
 
+use super::place::Place;
 use crate::canon::{Group, Op, Role};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::text::Span;
-
-/// Where the tool stands, as far as the words of a block before say it.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Place {
-    x: Option<f64>,
-    z: Option<f64>,
-}
-
-impl Place {
-    /// Takes what a statement does to it. Cycles end where they began.
-    pub fn step(&mut self, stmt: &Stmt) {
-        let StmtKind::Nc(nc) = &stmt.kind else {
-            if !matches!(stmt.kind, StmtKind::Comment | StmtKind::Assign { .. }) {
-                *self = Self::default();
-            }
-            return;
-        };
-        let stays = |op: Op| op.is_lathe_cycle() || op.is_lathe_setup() || op.is_pass();
-        if nc.ops().any(stays) || !nc.names_axis() {
-            return;
-        }
-        let plain = |op: Op| {
-            !op.takes_axes()
-                && !matches!(op, Op::MachineOnce | Op::ReferenceReturn | Op::Reference2 | Op::Home)
-        };
-        if !nc.ops().all(plain) || stmt.site.skip.is_some() {
-            *self = Self::default();
-            return;
-        }
-        for item in &nc.items {
-            match item {
-                NcItem::Word(Role::X, value) => self.x = value.constant(),
-                NcItem::Word(Role::StepX, value) => {
-                    self.x = self.x.zip(value.constant()).map(|(x, by)| x + by)
-                }
-                NcItem::Word(Role::Z, value) => self.z = value.constant(),
-                NcItem::Word(Role::StepZ, value) => {
-                    self.z = self.z.zip(value.constant()).map(|(z, by)| z + by)
-                }
-                NcItem::Code(..) => *self = Self::default(),
-                _ => {}
-            }
-        }
-    }
-}
 
 /// A thread at full depth: where it begins, where it ends, and from where the cycle came; X as a diameter.
 struct Pass {
@@ -65,7 +21,7 @@ impl Pass {
     /// The pass of a cycle; none where a number of it is not known.
     fn of(nc: &Nc, angle: f64, from: Place) -> Option<Self> {
         let number = |role: Role| nc.word(role).map_or(Some(None), |value| value.constant().map(Some));
-        let from = (from.x?, from.z?);
+        let from = (from.x()?, from.z()?);
         let whole = |whole: Role, step: Role, at: f64| -> Option<f64> {
             match (number(whole)?, number(step)?) {
                 (Some(to), None) => Some(to),

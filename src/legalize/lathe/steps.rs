@@ -1,13 +1,15 @@
 //! Increments by letters of their own (U, W), where the target has a mode for them (G91), and the other way round.
 //!
 //! Law: a word moves its axis by what it moved it by. Side conditions: where a mode becomes letters, it is known at each block that moves; where
-//! letters become a mode, a block has words of one kind only. Counter-example: `G1 X50. W-2.`, which no mode can say.
+//! letters become a mode, a block has words of one kind only, or where the tool stands is known as numbers. Counter-example: `G1 X50. W-2.`
+//! after a call, which no mode can say.
 
+use super::place::Place;
 use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{BlockId, Module, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
@@ -123,25 +125,28 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let calls_after_moves = stmts.any(is_modal);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let straight = entered_straight(program);
-        let mut mode = None;
+        let (mut mode, mut place) = (None, Place::default());
         for (block, straight) in program.blocks.iter_mut().zip(straight) {
             if !straight {
-                mode = None;
+                (mode, place) = (None, Place::default());
             }
             for stmt in &mut block.stmts {
+                place.enter(stmt);
+                let before = place;
+                place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                if both_kinds(nc) || before.in_contour() {
+                    to_places(nc, before);
+                }
                 // The blocks of a contour are places: the cycle must not read them under G91.
                 if !moves(nc) && !nc.ops().any(Op::reads_contour) {
                     continue;
                 }
-                let steps =
-                    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_step()));
-                let whole = |item: &NcItem| matches!(item, NcItem::Word(role, _) if PAIRS.iter().any(|(whole, _)| whole == role));
-                if steps && nc.items.iter().any(whole) {
+                if both_kinds(nc) {
                     found.push((index, stmt.site.span));
                     continue;
                 }
-                let needed = if steps { Op::Incremental } else { Op::Absolute };
+                let needed = if has_steps(nc) { Op::Incremental } else { Op::Absolute };
                 swap(nc, |(whole, step)| (step, whole));
                 if mode != Some(needed) {
                     nc.items.insert(0, NcItem::Op(needed));
@@ -155,11 +160,41 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
         }
     }
     for (index, span) in found {
-        let what = "a place and an increment in one block: the target has one mode for both axes";
+        let what = "a place and an increment in one block, and where the tool stands is not known here: the target has one mode for \
+                    both axes";
         let help = "write both as places, or both as increments";
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
     true
+}
+
+fn has_steps(nc: &Nc) -> bool {
+    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_step()))
+}
+
+/// True of a block with places and increments.
+fn both_kinds(nc: &Nc) -> bool {
+    let whole =
+        |item: &NcItem| matches!(item, NcItem::Word(role, _) if PAIRS.iter().any(|(whole, _)| whole == role));
+    has_steps(nc) && nc.items.iter().any(whole)
+}
+
+/// Makes places of increments, if all of them are known.
+fn to_places(nc: &mut Nc, from: Place) {
+    let place = |item: &NcItem| {
+        let NcItem::Word(role, value) = item else { return Some(item.clone()) };
+        let (whole, from) = match role {
+            Role::StepX => (Role::X, from.x()?),
+            Role::StepZ => (Role::Z, from.z()?),
+            role if role.is_step() => return None,
+            _ => return Some(item.clone()),
+        };
+        let to = ((from + value.constant()?) * 1e6).round() / 1e6;
+        Some(NcItem::Word(whole, Expr::Number(to)))
+    };
+    if let Some(items) = nc.items.iter().map(place).collect() {
+        nc.items = items;
+    }
 }
 
 /// True for a block whose axis words say where something goes.

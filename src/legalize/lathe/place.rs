@@ -1,0 +1,124 @@
+//! Where the tool of a lathe stands in the program's coordinates, as far as the words of the blocks before say it.
+//!
+//! Cycles and passes end where they began. The blocks of a contour are read by the cycle before them, which then goes on after them
+//! from where it began; what a contour's words say counts inside it alone.
+
+use crate::canon::{Group, Op, Role};
+use crate::ir::{Expr, Nc, NcItem, Stmt, StmtKind};
+
+/// What is known of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Place {
+    at: At,
+    /// Whether a pass is in force, which each block with axis words runs; none where that is not known.
+    passes: Option<bool>,
+    /// The numbers of the first and the last block of the contour that a cycle read.
+    read: Option<(u32, u32)>,
+    /// Inside a contour: the number of its last block, and where the cycle began.
+    inside: Option<(u32, At)>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct At {
+    x: Option<f64>,
+    z: Option<f64>,
+}
+
+impl Place {
+    /// X, a diameter.
+    pub fn x(&self) -> Option<f64> {
+        self.at.x
+    }
+
+    /// Z.
+    pub fn z(&self) -> Option<f64> {
+        self.at.z
+    }
+
+    /// True inside a contour.
+    pub fn in_contour(&self) -> bool {
+        self.inside.is_some()
+    }
+
+    /// Comes to a statement: the first block of a contour begins where nobody knows, as several cycles may read it.
+    pub fn enter(&mut self, stmt: &Stmt) {
+        if let Some((first, last)) = self.read
+            && stmt.site.sequence == Some(first)
+        {
+            self.inside = Some((last, self.at));
+            self.at = At::default();
+        }
+    }
+
+    /// Takes what a statement does to it.
+    pub fn step(&mut self, stmt: &Stmt) {
+        match &stmt.kind {
+            StmtKind::Nc(nc) => self.words(nc, stmt.site.skip.is_some()),
+            StmtKind::Comment | StmtKind::Assign { .. } => {}
+            _ => *self = Self::default(),
+        }
+        if let Some((last, from)) = self.inside
+            && stmt.site.sequence == Some(last)
+        {
+            self.at = from;
+            self.inside = None;
+        }
+    }
+
+    fn words(&mut self, nc: &Nc, skipped: bool) {
+        if nc.items.iter().any(|item| matches!(item, NcItem::Code(..))) {
+            *self = Self::default();
+            return;
+        }
+        if nc.ops().any(Op::reads_contour) {
+            let number = |role: Role| nc.word(role).and_then(Expr::constant).map(|number| number as u32);
+            self.read = number(Role::ContourFirst).zip(number(Role::ContourLast));
+        }
+        if let Some(motion) = nc.ops().filter(|op| op.group() == Group::Motion).last() {
+            self.passes = Some(motion.is_pass()).filter(|_| !skipped);
+        }
+        if nc.ops().any(|op| op.is_lathe_cycle() || op.is_lathe_setup()) {
+            return;
+        }
+        // A new offset or shift moves the coordinates under the tool.
+        if !nc.ops().all(is_plain) {
+            self.at = At::default();
+            return;
+        }
+        if !nc.names_axis() {
+            return;
+        }
+        match self.passes {
+            Some(true) => {}
+            Some(false) if !skipped && nc.ops().all(is_plain) => {
+                nc.items.iter().for_each(|item| self.word(item))
+            }
+            _ => self.at = At::default(),
+        }
+    }
+
+    fn word(&mut self, item: &NcItem) {
+        let NcItem::Word(role, value) = item else { return };
+        let by = |from: Option<f64>| {
+            from.zip(value.constant()).map(|(from, by)| ((from + by) * 1e6).round() / 1e6)
+        };
+        match role {
+            Role::X => self.at.x = value.constant(),
+            Role::StepX => self.at.x = by(self.at.x),
+            Role::Z => self.at.z = value.constant(),
+            Role::StepZ => self.at.z = by(self.at.z),
+            _ => {}
+        }
+    }
+}
+
+/// True for what leaves a move where its words say.
+fn is_plain(op: Op) -> bool {
+    let elsewhere = matches!(
+        op,
+        Op::MachineOnce | Op::ReferenceReturn | Op::Reference2 | Op::ReferenceFrom | Op::Home | Op::Probe
+    );
+    let frame =
+        matches!(op.group(), Group::WorkOffset | Group::Units | Group::Distance) || op == Op::TurretIndex;
+    !op.takes_axes() && !elsewhere && !frame
+}
