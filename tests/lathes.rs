@@ -1,0 +1,162 @@
+//! Random programs of lathes, converted to the other lathes and back, each conversion verified.
+//!
+//! `MACROGLOT_PROGRAMS=100 MACROGLOT_SEED=7 cargo test --test lathes -- --nocapture` tries so many. What is drawn is what turners
+//! write: passes, contours roughed and finished, grooves, pecks, threads, increments, loops over passes. All of it has a conversion.
+
+#[path = "support/machine.rs"]
+mod machine;
+
+use machine::machine;
+use macroglot::dialect::Control;
+use macroglot::library::{Input, Lock, Options, Outcome, convert, judge};
+use macroglot::verify::Effort;
+use std::fmt::Write;
+
+/// How many programs are tried where nothing else is said, and from which seed.
+const PROGRAMS: u64 = 8;
+const SEED: u64 = 20_261;
+
+const EFFORT: Effort = Effort {
+    fewest: 4,
+    telling: 4,
+    drawn: 4,
+    scenarios: 8,
+    tries: 16,
+    steps: 4000,
+    all_steps: 60_000,
+    seed: 1,
+    program_seconds: 60.0,
+    library_seconds: 600.0,
+    allowed_mm: 0.0,
+};
+
+const FANUC: &str = "machine=\"lathe\";units=\"metric\";decimal_point=\"calculator\"";
+const HAAS: &str = "haas[machine=\"lathe\";units=\"metric\";settings.73=\"0.5\";settings.22=\"0.5\";settings.86=\"0.05\";settings.95=\"0\";\
+                    settings.99=\"0.05\"]";
+
+fn setting(name: &str, otherwise: u64) -> u64 {
+    std::env::var(name).map_or(otherwise, |text| text.parse().unwrap_or_else(|_| panic!("{name}={text}")))
+}
+
+/// Numbers in a row that a seed fixes: xorshift.
+struct Source(u64);
+
+impl Source {
+    fn below(&mut self, bound: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 % bound
+    }
+
+    fn pick<'t>(&mut self, from: &[&'t str]) -> &'t str {
+        from[self.below(from.len() as u64) as usize]
+    }
+}
+
+/// A program of system A: a bar of 60 mm, from X64. Z3.
+fn program(source: &mut Source) -> String {
+    let mut out = String::from("O1\nG21 G40 G99\nG50 S2500\n");
+    let turret = source.pick(&["T0101", "T0404", "T1212"]);
+    let turns = source.pick(&["G96 S180 M03", "G97 S800 M3", "G97 S600 M4"]);
+    let _ = writeln!(out, "{turret}\n{turns}\n{HOME}");
+    for count in 0..2 + source.below(4) {
+        part(source, 20 * (count + 1), &mut out);
+        let _ = writeln!(out, "{HOME}");
+    }
+    let _ = writeln!(out, "{}\nM5\nM30", source.pick(&["G28 U0 W0", "G0 X200. Z100."]));
+    out
+}
+
+const HOME: &str = "G0 X64. Z3.";
+
+fn part(source: &mut Source, number: u64, out: &mut String) {
+    let _ = match source.below(10) {
+        0 => {
+            let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
+            writeln!(out, "G90 X58. {end}{taper} F.2\nX56.\nX54.")
+        }
+        1 => writeln!(out, "G92 X58. Z-18. {}F1.5\nX57.4\nX57.1", source.pick(&["", "R-.5 "])),
+        2 => writeln!(out, "G94 X0. Z2. F.2\nZ1."),
+        3 => {
+            let (depth, left) = (source.pick(&["U1.", "U2.5"]), source.pick(&["U.4 W.1", "U0 W0", "U.6"]));
+            let way = source.pick(&["X46.", "G2 X50. Z-20. R5.", "U6. W-3."]);
+            writeln!(
+                out,
+                "G71 {depth} R.5\nG71 P{number} Q{} {left} F.25\nN{number} G0 X40.\nG1 Z-15. F.12\n{way}\nG1 Z-35.\nN{} X64.\nG70 P{number} Q{}",
+                number + 5,
+                number + 5,
+                number + 5
+            )
+        }
+        4 => writeln!(
+            out,
+            "G72 W1. R.5\nG72 P{number} Q{} U.4 W.1 F.2\nN{number} G0 Z-12.\nG1 X50. F.1\nX44. Z-5.\nN{} Z3.",
+            number + 5,
+            number + 5
+        ),
+        5 => writeln!(
+            out,
+            "G0 Z-10.\nG75 R.5\nG75 X54. Z-{} P{} Q2000 F.08",
+            source.pick(&["10.", "14."]),
+            source.pick(&["1500", "2000"])
+        ),
+        6 => writeln!(out, "G0 X0.\nG74 R.5\nG74 Z-{} Q7000 F.1", source.pick(&["20.", "31."])),
+        7 => writeln!(
+            out,
+            "G76 P0{}0060 Q50 R.05\nG76 X60. Z-20. {}P{} Q300 F1.5",
+            source.pick(&["1", "2", "3"]),
+            source.pick(&["", "R-.4 "]),
+            source.pick(&["920", "1200"])
+        ),
+        8 => writeln!(out, "G1 U-4. F.15\nW-8.\nX58. W-2.\nG4 {}", source.pick(&["P500", "U.5", "X1."])),
+        _ => writeln!(
+            out,
+            "#1=0\nWHILE[#1LT{}]DO1\nG90 X[60.-#1*2] Z-15. F.2\n#1=#1+1\nEND1",
+            1 + source.below(3)
+        ),
+    };
+}
+
+/// The text on the target; a fault where it has none, or the machine would do something else.
+fn converted(text: &str, source: &Control, target: &Control) -> Result<String, String> {
+    let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: text.as_bytes().to_vec() }];
+    let lock = Lock::new(source.name(), target.name());
+    let mut made = convert(&inputs, source, target, lock, Options::default());
+    let wrong = |why: &str, program: &macroglot::library::ProgramReport| {
+        let said: Vec<&str> = program.diagnostics.iter().map(|found| &*found.message).collect();
+        format!("to {}: {why}\n{text}\n{}", target.name(), said.join("\n"))
+    };
+    if let Some(refused) = made.programs.iter().find(|program| program.outcome == Outcome::Refused) {
+        return Err(wrong("refused", refused));
+    }
+    judge(&inputs, &mut made, source, target, EFFORT);
+    let same = |program: &&macroglot::library::ProgramReport| {
+        program.verdict == Some(macroglot::verify::Outcome::Same)
+    };
+    match made.programs.iter().find(|program| !same(program)) {
+        Some(program) => Err(wrong("not the same", program)),
+        None => Ok(made.texts.into_iter().flatten().collect()),
+    }
+}
+
+/// What is wrong with a program's way to each other lathe and back.
+fn faults(text: &str, lathes: &[Control]) -> Vec<String> {
+    let Some((first, others)) = lathes.split_first() else { return Vec::new() };
+    let way =
+        |other: &Control| converted(text, first, other).and_then(|there| converted(&there, other, first));
+    others.iter().filter_map(|other| way(other).err()).collect()
+}
+
+#[test]
+fn random_programs_go_to_other_lathes_and_back() {
+    let system = |name: &str| format!("fanuc[{FANUC};settings.gcode_system=\"{name}\"]");
+    let specs = [system("A"), system("B"), system("C"), HAAS.to_owned()];
+    let lathes: Vec<Control> = specs.iter().map(|spec| machine(spec).expect(spec)).collect();
+    let seed = setting("MACROGLOT_SEED", SEED);
+    for at in 0..setting("MACROGLOT_PROGRAMS", PROGRAMS) {
+        let text = program(&mut Source(seed.wrapping_add(at).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1));
+        let found = faults(&text, &lathes);
+        assert!(found.is_empty(), "seed {seed}, program {at}:\n{}", found.join("\n\n"));
+    }
+}
