@@ -28,7 +28,7 @@ fn a_library_without_a_profile_is_known_by_its_programs() {
     assert!(run.out.contains("it is taken as a lathe"), "the report has it too: {}", run.out);
     // G99 is a feed a turn, on either lathe; read as a mill's it would be a return to R.
     let text = unmarked(&shop.read("out/shaft.nc"));
-    assert!(text.contains("T101\n") && text.contains("G99") && text.contains("F0.2"), "{text}");
+    assert!(text.contains("T0101\n") && text.contains("G99") && text.contains("F0.2"), "{text}");
     // Where the profile says it, nothing is taken.
     shop.write("m.toml", b"dialect = \"fanuc\"\nmachine = \"lathe\"\n");
     let told = shop.run("convert lib --from fanuc --to haas --machine m.toml --out told --no-verify");
@@ -82,7 +82,7 @@ fn a_library_of_two_machines_is_not_guessed() {
 #[test]
 fn another_code_system_is_asked_for_by_its_key() {
     let shop = turning();
-    shop.write("lib/face.nc", b"O3\nT0202\nG21 G95\nG1 X0. F.2\nM30\n");
+    shop.write("lib/face.nc", b"O3\nT0202\nG21 G95 G90\nG1 X0. F.2\nM30\n");
     let run = shop.run("convert lib --from fanuc --to haas --out out --no-verify --verbose");
     assert_eq!(run.code, 1, "{}", run.err);
     assert!(run.out.contains("3 refused"), "{}", run.out);
@@ -127,5 +127,5 @@ fn the_profiles_that_ship_are_lathes() {
     let run =
         shop.run(&format!("convert a.nc --from fanuc --to haas --machine {from} --machine {to} --no-verify"));
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
-    assert!(run.out.contains("P9020") && run.out.contains("T101"), "{}", run.out);
+    assert!(run.out.contains("P9020") && run.out.contains("T0101"), "{}", run.out);
 }
