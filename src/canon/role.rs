@@ -211,6 +211,10 @@ impl Role {
     pub const ACT_WORDS: [Role; 8] =
         [Role::Act1, Role::Act2, Role::Act3, Role::Act4, Role::Act5, Role::Act6, Role::Act7, Role::Act8];
 
+    /// Each axis word that has an increment of its own, and that increment.
+    pub const STEPS: [(Role, Role); 4] =
+        [(Role::X, Role::StepX), (Role::Y, Role::StepY), (Role::Z, Role::StepZ), (Role::C, Role::StepC)];
+
     /// True for a word of a builder's code that a profile names: its value is carried as it is.
     pub const fn is_act_word(self) -> bool {
         matches!(

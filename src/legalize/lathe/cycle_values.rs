@@ -5,7 +5,7 @@ use super::thread_form;
 use crate::assume::Predicate;
 use crate::canon::Role;
 use crate::dialect::Control;
-use crate::ir::{Expr, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::{Expr, Nc, NcItem, Stmt};
 
 /// What a cycle takes besides its own words.
 pub(super) type Values = Vec<(Role, Expr)>;
@@ -27,14 +27,6 @@ pub(super) struct Given {
 
 /// A setting that the target must have: what, what to do, and as a value.
 pub(super) type Need = (String, String, Predicate);
-
-/// The words of a statement, if it is a block of words.
-pub(super) fn nc_of(stmt: &Stmt) -> Option<&Nc> {
-    match &stmt.kind {
-        StmtKind::Nc(nc) => Some(nc),
-        _ => None,
-    }
-}
 
 /// The values that a block's own words give.
 pub(super) fn values_of(nc: &Nc, kind: &Kind) -> Values {
@@ -104,7 +96,7 @@ fn given(
     source: &Control,
 ) -> Result<Values, (String, String)> {
     let mut values = before.unwrap_or_default();
-    let own = nc_of(stmt).map(|nc| values_of(nc, kind)).unwrap_or_default();
+    let own = stmt.kind.nc().map(|nc| values_of(nc, kind)).unwrap_or_default();
     replace(&mut values, own);
     for role in kind.roles {
         if values.iter().any(|(found, _)| found == role) {

@@ -5,7 +5,7 @@
 //! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
 //! otherwise.
 
-use super::cycle_values::{Given, Values, nc_of, replace, resolve, values_of};
+use super::cycle_values::{Given, Values, replace, resolve, values_of};
 use super::place::Place;
 use super::settings::{Kind, setting, takes};
 use super::spring_passes::passes;
@@ -16,7 +16,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Units};
 use crate::ir::{Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
-use crate::legalize::features::Features;
+use crate::legalize::features::{Feature, Features};
 use crate::text::Span;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -38,6 +38,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let straight = entered_straight(program);
     let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
+    let modal = context.features.has(Feature::Modal);
     let (mut set, mut found) = (Vec::new(), Vec::new());
     let mut changed = false;
     for (block, straight) in program.blocks.iter_mut().zip(straight) {
@@ -47,7 +48,8 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         if block.stmts.iter().any(|stmt| cycle_of(stmt).is_some() || setup_of(stmt).is_some()) {
             changed = true;
             let old = std::mem::take(&mut block.stmts);
-            let mut run = Run { source: context.source, target: context.target, other_unit, set, found };
+            let mut run =
+                Run { source: context.source, target: context.target, other_unit, modal, set, found };
             block.stmts = run.block(old, matches!(block.term.kind, TermKind::End { .. })).into();
             (set, found) = (run.set, run.found);
         } else if block.stmts.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Comment)) {
@@ -85,11 +87,11 @@ fn refuse_two_values(found: &mut Found) {
 }
 
 fn cycle_of(stmt: &Stmt) -> Option<&'static Kind> {
-    nc_of(stmt)?.ops().find_map(Kind::of_cycle)
+    stmt.kind.nc()?.ops().find_map(Kind::of_cycle)
 }
 
 fn setup_of(stmt: &Stmt) -> Option<&'static Kind> {
-    nc_of(stmt)?.ops().find_map(Kind::of_setup)
+    stmt.kind.nc()?.ops().find_map(Kind::of_setup)
 }
 
 /// What is found: where, what, what to do, and what the conversion supposes; of a refusal nothing.
@@ -120,6 +122,8 @@ struct Run<'c> {
     target: &'c Control,
     /// True where the program may run in another unit than the one that the settings are in.
     other_unit: bool,
+    /// True where a macro may run after each move, and leave the tool elsewhere.
+    modal: bool,
     set: Vec<Set>,
     found: Found,
 }
@@ -136,6 +140,9 @@ impl Run<'_> {
             }
             place.enter(&stmt);
             place.step(&stmt);
+            if self.modal {
+                place = Place::default();
+            }
             if let Some(kind) = cycle_of(&stmt) {
                 let (made, more) = self.cycle(kind, stmt, place, (old.make_contiguous(), ends));
                 new.extend(made);
@@ -154,7 +161,7 @@ impl Run<'_> {
 
     /// Takes the values of a block that sets them; what else it does stays. It is written anew where the target has such a block.
     fn setup(&mut self, kind: &Kind, mut stmt: Stmt) -> Option<Stmt> {
-        let nc = nc_of(&stmt)?;
+        let nc = stmt.kind.nc()?;
         let values = values_of(nc, kind);
         let own = |item: &NcItem| match item {
             NcItem::Op(op) => *op == kind.setup,
@@ -235,7 +242,7 @@ impl Run<'_> {
             self.refuse(span, FINISHES, FINISHES_HELP);
         }
         if let StmtKind::Nc(nc) = &mut stmt.kind {
-            drop_rough(nc, self.target);
+            drop_rough(nc, self.source, self.target);
             nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if kind.roles.contains(role)));
             nc.items.extend(words.into_iter().map(|(role, value)| NcItem::Word(role, value)));
         }
@@ -257,13 +264,15 @@ fn names_other_unit(program: &Program, control: &Control) -> bool {
         None => return false,
     };
     let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    stmts.any(|stmt| nc_of(stmt).is_some_and(|nc| nc.has(other)))
+    stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(other)))
 }
 
 /// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
 /// that the passes differ.
-fn drop_rough(nc: &mut Nc, target: &Control) {
-    let along = target.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
+fn drop_rough(nc: &mut Nc, source: &Control, target: &Control) {
+    let is_along =
+        |control: &Control| control.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
+    let along = is_along(target) && !is_along(source);
     let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return };
     let rough = |role: Role| matches!(role, Role::RoughX | Role::RoughZ) && !takes(target, op, role);
     if along {

@@ -14,8 +14,8 @@ pub struct Place {
     passes: Option<bool>,
     /// The numbers of the first and the last block of the contour that a cycle read.
     read: Option<(u32, u32)>,
-    /// Inside a contour: the number of its last block, and where the cycle began.
-    inside: Option<(u32, At)>,
+    /// Inside a contour: the number of its last block, and what was known where the cycle began.
+    inside: Option<(u32, At, Option<bool>)>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,7 +45,7 @@ impl Place {
         if let Some((first, last)) = self.read
             && stmt.site.sequence == Some(first)
         {
-            self.inside = Some((last, self.at));
+            self.inside = Some((last, self.at, self.passes));
             self.at = At::default();
         }
     }
@@ -57,11 +57,10 @@ impl Place {
             StmtKind::Comment | StmtKind::Assign { .. } => {}
             _ => *self = Self::default(),
         }
-        if let Some((last, from)) = self.inside
+        if let Some((last, at, passes)) = self.inside
             && stmt.site.sequence == Some(last)
         {
-            self.at = from;
-            self.inside = None;
+            (self.at, self.passes, self.inside) = (at, passes, None);
         }
     }
 

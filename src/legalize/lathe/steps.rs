@@ -15,10 +15,6 @@ use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
-/// Each axis word and its increment.
-pub(in crate::legalize) const PAIRS: [(Role, Role); 4] =
-    [(Role::X, Role::StepX), (Role::Y, Role::StepY), (Role::Z, Role::StepZ), (Role::C, Role::StepC)];
-
 /// True where the target has letters for increments, and no mode; a program that names no mode begins in one all the same.
 pub fn mode_to_letters(features: &Features, context: &Context<'_>) -> bool {
     let modes = features.op(Op::Incremental)
@@ -28,7 +24,7 @@ pub fn mode_to_letters(features: &Features, context: &Context<'_>) -> bool {
 }
 
 fn moves_any(features: &Features) -> bool {
-    PAIRS.iter().any(|(whole, step)| features.role(*whole) || features.role(*step))
+    Role::STEPS.iter().any(|(whole, step)| features.role(*whole) || features.role(*step))
 }
 
 /// True where the target has a mode for increments, and no letters; a program without increments must say so there too.
@@ -131,6 +127,10 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 (mode, place) = (None, Place::default());
             }
             for stmt in &mut block.stmts {
+                // A macro that runs after each move may leave the tool elsewhere.
+                if calls_after_moves {
+                    place = Place::default();
+                }
                 place.enter(stmt);
                 let before = place;
                 place.step(stmt);
@@ -174,8 +174,7 @@ fn has_steps(nc: &Nc) -> bool {
 
 /// True of a block with places and increments.
 fn both_kinds(nc: &Nc) -> bool {
-    let whole =
-        |item: &NcItem| matches!(item, NcItem::Word(role, _) if PAIRS.iter().any(|(whole, _)| whole == role));
+    let whole = |item: &NcItem| matches!(item, NcItem::Word(role, _) if Role::STEPS.iter().any(|(whole, _)| whole == role));
     has_steps(nc) && nc.items.iter().any(whole)
 }
 
@@ -200,7 +199,7 @@ fn to_places(nc: &mut Nc, from: Place) {
 /// True for a block whose axis words say where something goes.
 fn moves(nc: &Nc) -> bool {
     let words = nc.items.iter().any(|item| {
-        matches!(item, NcItem::Word(role, _) if PAIRS.iter().any(|(whole, step)| whole == role || step == role))
+        matches!(item, NcItem::Word(role, _) if Role::STEPS.iter().any(|(whole, step)| whole == role || step == role))
     });
     words && !nc.ops().any(Op::takes_axes) && !nc.has(Op::Dwell)
 }
@@ -208,7 +207,7 @@ fn moves(nc: &Nc) -> bool {
 fn swap(nc: &mut Nc, pair: impl Fn((Role, Role)) -> (Role, Role)) {
     for item in &mut nc.items {
         if let NcItem::Word(role, _) = item
-            && let Some((_, to)) = PAIRS.into_iter().map(&pair).find(|(from, _)| from == role)
+            && let Some((_, to)) = Role::STEPS.into_iter().map(&pair).find(|(from, _)| from == role)
         {
             *role = to;
         }

@@ -9,7 +9,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Machine, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
-use crate::legalize::lathe::steps::{PAIRS, has_letters};
+use crate::legalize::lathe::steps::has_letters;
 use crate::legalize::{Context, replace_statements};
 
 const ROTARY: &str = "this return takes the rotary axes of the source along, and the target has none of their letters: make sure that they \
@@ -136,7 +136,7 @@ fn name(nc: &mut Nc, axes: &[Role], letters: bool) {
     nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
     let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ReferenceReturn)).unwrap_or(0);
     let word = |axis: Role| {
-        let step = PAIRS.iter().find(|(whole, _)| letters && *whole == axis).map(|(_, step)| *step);
+        let step = Role::STEPS.iter().find(|(whole, _)| letters && *whole == axis).map(|(_, step)| *step);
         NcItem::Word(step.unwrap_or(axis), Expr::Number(0.0))
     };
     nc.items.splice(at + 1..at + 1, axes.iter().copied().map(word));

@@ -46,7 +46,7 @@ impl Levels<'_> {
         0..=self.rough.parts.len().saturating_sub(1)
     }
 
-    /// A level over some parts of the contour; none where there is nothing to cut.
+    /// A level over some parts of the contour; none if there is nothing to cut.
     fn level(&self, count: u32, parts: &RangeInclusive<usize>) -> Option<Level> {
         let (depth, deepest) = (self.depth * f64::from(count), self.rough.deepest(parts));
         if depth < deepest - DEEPER {

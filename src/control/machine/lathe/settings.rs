@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct Turning {
     /// True where a block before that of a cycle sets what it takes: threads of many passes have one.
     pub two_blocks: bool,
-    /// True where the feed counts a turn when power comes on; none where no source says it.
+    /// True where the feed counts a turn when power comes on; none if no source says it.
     pub feeds_by_turn: Option<bool>,
     /// True where only a word says that a contour has valleys (R6).
     pub valleys_by_word: bool,

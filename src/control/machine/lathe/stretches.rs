@@ -50,16 +50,16 @@ impl Rough {
         let (mut found, mut open, mut under) = (Vec::new(), None, false);
         for at in parts.clone() {
             let Some(part) = self.parts.get(at) else { break };
-            let (before, behind) = (self.depth(part.from), self.depth(part.to));
+            let (before, after) = (self.depth(part.from), self.depth(part.to));
             if open.is_none() {
-                open = match (is_in(before), is_in(behind)) {
+                open = match (is_in(before), is_in(after)) {
                     (true, _) => Some((at, part.from)),
-                    (false, true) => Some((at, self.reach(part, depth, behind, part.to))),
+                    (false, true) => Some((at, self.reach(part, depth, after, part.to))),
                     (false, false) => continue,
                 };
             }
-            under |= before.max(behind) > depth + DEEPER;
-            if let Some((first, from)) = open.filter(|_| !is_in(behind)) {
+            under |= before.max(after) > depth + DEEPER;
+            if let Some((first, from)) = open.filter(|_| !is_in(after)) {
                 let to = self.reach(part, depth, before, part.from);
                 found.push((under, Stretch { from, to, parts: first..=at, ends: false }));
                 (open, under) = (None, false);

@@ -6,13 +6,8 @@ use crate::ir::{Nc, NcItem, SourceInfo};
 use crate::lower::macro_b::build::Lowering;
 use crate::text::Span;
 
-/// Each axis and its increment.
-const PAIRS: [(Role, Role, &str); 4] = [
-    (Role::X, Role::StepX, "X and U"),
-    (Role::Y, Role::StepY, "Y and V"),
-    (Role::Z, Role::StepZ, "Z and W"),
-    (Role::C, Role::StepC, "C and H"),
-];
+/// The letters of [`Role::STEPS`].
+const LETTERS: [&str; 4] = ["X and U", "Y and V", "Z and W", "C and H"];
 
 impl Lowering<'_> {
     /// Checks a block of a lathe's program: what no source tells is said, not guessed.
@@ -21,11 +16,12 @@ impl Lowering<'_> {
             return;
         }
         let has = |role: Role| nc.word(role).is_some();
-        for (_, _, letters) in PAIRS.iter().filter(|(whole, step, _)| has(*whole) && has(*step)) {
+        let pairs = Role::STEPS.into_iter().zip(LETTERS);
+        for (_, letters) in pairs.filter(|((whole, step), _)| has(*whole) && has(*step)) {
             let message = format!("{letters} in one block: no source says which of the two counts");
             self.findings.not_understood(span, message);
         }
-        if nc.has(Op::MachineOnce) && PAIRS.iter().any(|(_, step, _)| has(*step)) {
+        if nc.has(Op::MachineOnce) && Role::STEPS.iter().any(|(_, step)| has(*step)) {
             self.findings.not_understood(span, "an increment beside G53: no source says what it counts from");
         }
         if nc.word(Role::ArcRadius).and_then(|radius| radius.constant()).is_some_and(|radius| radius < 0.0) {
@@ -58,7 +54,7 @@ impl Lowering<'_> {
             |axis: Axis| self.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
         // A drilling cycle of live tools has its own words.
         let other = nc.items.iter().any(|item| matches!(item, NcItem::Code(..)));
-        let cuts = PAIRS.iter().any(|(whole, step, _)| {
+        let cuts = Role::STEPS.iter().any(|(whole, step)| {
             !matches!(whole, Role::C) && (nc.word(*whole).is_some() || nc.word(*step).is_some())
         });
         let chamfer = nc.word(Role::C).is_some() && cuts && !other && !nc.has(Op::Rapid) && !listed(Axis::C);
