@@ -1,13 +1,15 @@
-"""Writes expected/ and expected-lathe/: see README.md."""
+"""Writes expected/, expected-lathe/ and expected-live/: see README.md."""
 
 import os
 
 import cc100  # noqa: F401  each module fills motion.ALL
+import dimensions  # noqa: F401
 import fadal  # noqa: F401
 import fanuc  # noqa: F401
 import haas  # noqa: F401
 import lathe  # noqa: F401
 import legalized  # noqa: F401
+import live  # noqa: F401
 from motion import ALL
 
 for motion in ALL:

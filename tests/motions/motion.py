@@ -40,8 +40,8 @@ class Motion:
     length what the tool in use adds to Z, in mm.
     """
 
-    # Where the lists of this kind of machine are written.
-    folder = "expected"
+    # Where the lists of this kind of machine are written, and what more these lists say: a key a line.
+    folder, says = "expected", ""
 
     def __init__(self, control, name, run, about, *, unit=1.0, start=(0, 0, 0), home=(0, 0, 0), offsets=None,
                  tools=None, profile="", scenario="", tables="", ends="ended",
@@ -303,7 +303,7 @@ class Motion:
         )
         turns = "turns = true\n" if self.turns else ""
         return (
-            f"{about}\n\ncontrol = \"{self.control}\"\nrun = [{run}]\nends = \"{self.ends}\"\n{turns}"
+            f"{about}\n\ncontrol = \"{self.control}\"\nrun = [{run}]\nends = \"{self.ends}\"\n{turns}{self.says}"
             f"profile = '''\ndialect = \"{self.control}\"\n{self.profile.strip()}\n'''\n"
             f"scenario = '''\n" + "\n".join(scenario) + "\n'''\n"
             "moves = '''\n" + "\n".join(self.lines) + "\n'''\n" + converts
