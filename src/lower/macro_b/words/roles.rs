@@ -128,7 +128,7 @@ impl<'a> Lowering<'a> {
             _ => return false,
         };
         let listed = self.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
-        let stated = self.codes.letter(word.letter, word.comma).is_some_and(|row| row.origin.is_settled());
+        let stated = self.codes.letter(word.letter, word.comma).is_some_and(|row| row.origin.is_confirmed());
         self.control.machine() == Machine::Mill && !word.comma && !listed && !stated
     }
 
