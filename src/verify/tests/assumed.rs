@@ -249,7 +249,7 @@ fn a_break_excuses_what_a_running_spindle_does_after_it() {
 /// Who says that nothing calls the program says that its `M99 P` is a jump; else it may be one.
 #[test]
 fn a_program_that_is_run_by_itself_goes_on_at_its_own_block() {
-    let source = "O1\nG21G90\n#501=0\nN10G0X5.\nG0X6.\n#501=#501+1\nIF[#501GT3]GOTO30\nM99P10\nN30M30\n";
+    let source = "O1\nG21G90\n#1=0\nN10G0X5.\nG0X6.\n#1=#1+1\nIF[#1GT3]GOTO30\nM99P10\nN30M30\n";
     let target = source.replace("M99P10", "GOTO10");
     let found = |supposed: &[(usize, Assumption)]| one(source, &target, supposed).outcome;
     assert_eq!(found(&[]), Outcome::Undecided);
