@@ -91,13 +91,13 @@ fn an_extended_profile_is_not_written_over() {
 /// What is open of a machine is asked once, makes no program one for review, and is not asked of a profile that states it.
 #[test]
 fn a_profile_answers_what_is_open_of_a_machine() {
-    let program = CLEAN.replace("G0 X1.", "G0 X1. A5.");
-    let confirm = "confirm = [\"word:A\"]\n";
+    let program = CLEAN.replace("G0 X1.", "#100=#4001 AND 3\nG0 X1.");
+    let confirm = "confirm = [\"behaviour:bits.of.fraction\"]\n";
     let shop = Shop::with(&[("a.nc", &program), ("m.toml", &format!("dialect = \"fanuc\"\n{confirm}"))]);
     let plain = shop.run("convert a.nc --from fanuc --to haas");
-    assert!(plain.err.contains("word:A") && plain.err.contains("1 converted"), "{}", plain.err);
+    assert!(plain.err.contains("bits.of.fraction") && plain.err.contains("1 converted"), "{}", plain.err);
     let known = shop.run("convert a.nc --from fanuc --to haas --machine m.toml");
-    assert!(!known.err.contains("word:A") && known.err.contains("1 converted"), "{}", known.err);
+    assert!(!known.err.contains("bits.of.fraction") && known.err.contains("1 converted"), "{}", known.err);
     assert_eq!(known.out, plain.out, "the same program, with nothing to look at");
 }
 

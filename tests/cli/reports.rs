@@ -178,11 +178,11 @@ fn a_run_that_was_cut_short_is_told_as_such() {
 /// What changes every move if the answer is no is asked first, and facts of tables last.
 #[test]
 fn the_most_dangerous_question_comes_first() {
-    let text = "O1\nG17 G90 G40 G80 G94\nG0 A5.\nG0 X1.\nM30\n";
+    let text = "O1\nG17 G90 G40 G80 G94\n#100=#4001 AND 3\nG0 X1.\nM30\n";
     let shop = Shop::with(&[("in/a.nc", text)]);
     shop.run("convert in --from fanuc --to haas --out out --report r.html --report r.md --no-verify");
-    for (report, first, last) in [("r.html", "no G20 or G21", "word:A"), ("r.md", "no G20 or G21", "word:A")]
-    {
+    let last = "bits.of.fraction";
+    for (report, first) in [("r.html", "no G20 or G21"), ("r.md", "no G20 or G21")] {
         let text = shop.read(report);
         let at = |words| text.find(words).unwrap_or_else(|| panic!("{report}: {words}"));
         assert!(at(first) < at(last), "{report}");
@@ -307,7 +307,7 @@ fn what_is_new_of_a_control_is_said_once() {
 /// What is asked of a machine stands once, however many programs it concerns; its lines, pasted into a profile, answer it.
 #[test]
 fn each_question_is_asked_once_with_the_lines_that_answer_it() {
-    let text = "O1001\nG21 G17 G90 G94 G40 G49 G80 G54 G98\nG0 X1.\nG0 A5.\nM38\nM30\n";
+    let text = "O1001\nG21 G17 G90 G94 G40 G49 G80 G54 G98\nG0 X1.\n#100=#4001 AND 3\nM38\nM30\n";
     let files = ["O1001", "O1002", "O1003", "O1004"].map(|name| text.replace("O1001", name));
     let [a, b, c, d] = &files;
     let shop = Shop::with(&[("in/a.nc", a), ("in/b.nc", b), ("in/c.nc", c), ("in/d.nc", d)]);
@@ -316,7 +316,7 @@ fn each_question_is_asked_once_with_the_lines_that_answer_it() {
     let wanted = "error MG0301: unknown meaning\n  the table of this control has no code M38\n      \
         4 programs: a.nc:5, b.nc:5, c.nc:5, ...\n      5 | M38\n";
     assert!(run.out.contains(wanted), "{}", run.out);
-    let asked = "\"word:A\", # ";
+    let asked = "\"behaviour:bits.of.fraction\", # ";
     assert_eq!(run.out.matches(asked).count(), 1, "{}", run.out);
     assert!(run.out.contains("(4 programs: a.nc:4, b.nc:4, c.nc:4, ...)\n"), "{}", run.out);
     let head = "a profile for the Fanuc Custom Macro B, which --machine or macroglot.toml names (dialect = \"fanuc\"):\n";
@@ -326,5 +326,5 @@ fn each_question_is_asked_once_with_the_lines_that_answer_it() {
     assert!(lines.starts_with("  confirm = [\n") && lines.contains("\n  ]\n"), "{lines}");
     shop.write("fanuc.toml", format!("dialect = \"fanuc\"\n{lines}").as_bytes());
     let run = shop.run(&format!("{line} --machine fanuc.toml"));
-    assert!(!run.out.contains("word:A"), "{}", run.out);
+    assert!(!run.out.contains("bits.of.fraction"), "{}", run.out);
 }
