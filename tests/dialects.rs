@@ -133,7 +133,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[362, 201, 63, 19], [515, 58, 72, 18], [269, 3, 111, 40], [241, 0, 86, 36]]);
+    assert_eq!(counts, [[360, 184, 84, 20], [603, 16, 81, 18], [269, 3, 113, 42], [241, 0, 87, 37]]);
 }
 
 fn control(name: &str) -> Control {
@@ -322,7 +322,21 @@ fn parameters_change_behaviours() {
     assert!(!profile("dialect = \"fanuc\"\n[parameters]\n6008.7 = 1").is(Question::ArgumentsOrderIjk));
     assert!(!profile("dialect = \"fanuc\"\n[parameters]\n6000.4 = 1").is(Question::GotoForwardFirst));
     assert_eq!(profile("dialect = \"fanuc\"\n[parameters]\n6008.0 = 1").numbers().arithmetic, "decimal8");
-    assert_eq!(profile("dialect = \"haas\"\n[settings]\n162 = 1").bare_length(), BareLength::Units);
+    let floats = profile("dialect = \"haas\"\n[settings]\n162 = 1");
+    assert_eq!((floats.bare_length(), floats.bare_feed()), (BareLength::Units, BareLength::Increments));
+    let by = |settings: &str, question| {
+        let control = profile(&format!("dialect = \"haas\"\n[settings]\n{settings}"));
+        let row = control.behaviour(question).unwrap();
+        (row.value.clone(), row.origin.is_confirmed())
+    };
+    let shift = Question::EndClearsLocal;
+    assert_eq!(by("33 = \"haas\"", shift), ("false".into(), true));
+    assert_eq!(by("33 = \"fanuc\"", shift), ("true".into(), true));
+    assert_eq!(by("", shift), ("true".into(), false));
+    let bare = Question::CycleRunsWithoutAxes;
+    assert_eq!(by("28 = \"off\"", bare), ("false".into(), true));
+    assert_eq!(by("28 = \"on\"", bare), ("true".into(), true));
+    assert_eq!(by("", bare), ("true".into(), false));
 }
 
 #[test]
@@ -410,6 +424,8 @@ fn haas_tables_are_those_of_the_class() {
     assert_eq!((fixed(110.0), fixed(129.0)), (Some(101.0), Some(120.0)));
     holds(&haas, "#", Some(1063), Sys::Input, &[63]);
     holds(&haas, "#", Some(1155), Sys::Output, &[55]);
+    holds(&haas, "#", Some(11101), Sys::Input, &[101]);
+    holds(&haas, "#", Some(12003), Sys::Output, &[3]);
     holds(&haas, "#", Some(2001), Sys::LengthGeometry, &[1]);
     holds(&haas, "#", Some(2201), Sys::LengthWear, &[1]);
     holds(&haas, "#", Some(2401), Sys::DiameterOrRadius, &[1]);
@@ -420,9 +436,14 @@ fn haas_tables_are_those_of_the_class() {
     holds(&haas, "#", Some(4124), Sys::Address, &[24]); // "the statement X1.3 sets variable #4124"
     holds(&haas, "#", Some(5401), Sys::ToolTable, &[1, 1]);
     holds(&haas, "#", Some(6001), Sys::Setting, &[1]);
+    holds(&haas, "#", Some(6198), Sys::Other, &[6198]); // 1000000 on the newer control
+    holds(&haas, "#", Some(6199), Sys::Setting, &[199]);
+    holds(&haas, "#", Some(20033), Sys::Setting, &[33]);
     holds(&haas, "#", Some(6999), Sys::Parameter, &[499]);
     holds(&haas, "#", Some(7001), Sys::WorkOffset, &[101, X]); // G110
     holds(&haas, "#", Some(7382), Sys::WorkOffset, &[120, Y]); // G129
+    holds(&haas, "#", Some(14001), Sys::WorkOffset, &[101, X]); // G154 P1
+    holds(&haas, "#", Some(15966), Sys::WorkOffset, &[199, 6]); // G154 P99
     assert_eq!(haas.variable_class("#", 100).unwrap().retained, Some(true));
     assert!(haas.variable_class("#", 700).is_none());
     assert!(

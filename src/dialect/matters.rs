@@ -13,7 +13,6 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:condition.at.start", "a condition that nothing has set is false"),
     ("machine:corner.elsewhere", "a corner without a cut is left out, and two in one block both count"),
     ("machine:cycle.back.bore", "back boring shifts, dives, shifts back, and feeds up"),
-    ("machine:cycle.l0.moves", "a position beside a repeat count of 0 makes no move"),
     ("machine:cycle.other", "a drilling cycle of this control alone moves nothing"),
     ("machine:cycle.shift.direction", "the shift of a boring cycle goes along the plane's first axis"),
     (
@@ -61,7 +60,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:polar.word.left.out", "a polar word that is left out keeps its last value"),
     ("machine:program.runs.out", "a called program without a return returns after its last block"),
     ("machine:program.without.return", "a called program without a return returns after its last block"),
-    ("machine:reference.from", "the way back from the reference position goes straight to its end"),
+    (
+        "machine:reference.from",
+        "the way back from the reference position goes by the point of the last return",
+    ),
     ("machine:return.without.call", "a return without a call ends the program"),
     ("machine:rotation.incremental", "the centre of a rotation counts from the tool in incremental mode"),
     ("machine:start.in.subprogram", "a new start ends the calls that are open"),

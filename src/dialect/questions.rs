@@ -221,7 +221,10 @@ questions! {
     DwellWaits "dwell.waits" NUMBER, "the milliseconds of a dwell that waits for cycle start instead", if "said";
     CyclePlanesFrozen "cycle.planes.frozen" YES, "the planes of a drilling cycle keep the meaning of the block that gave them";
     CycleL0Stores "cycle.l0.stores" YES, "a cycle with L0 is stored and not run", if "role:repeat";
+    CycleL0Moves "cycle.l0.moves" YES, "a position beside a repeat count of 0 is gone to, and nothing is drilled there", if "role:repeat";
     CycleRunsWithoutAxes "cycle.runs.without.axes" YES, "a cycle's own block runs it even without a position";
+    CycleRunsByDepth "cycle.runs.by.depth" YES, "a block with a new depth or retract plane alone runs the cycle in force";
+    CycleStartsSpindle "cycle.starts.spindle" YES, "a drilling cycle starts a spindle that a tool change left standing, and a tap any that stands", if "said";
     CycleTapFeed "cycle.tap.feed" OneOf(&["feed", "lead", "unknown"]), "what the words of a tapping cycle mean: feed and speed, or speed and lead";
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";

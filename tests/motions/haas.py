@@ -229,3 +229,37 @@ for x in (20.0, 10.0):
     part.hole(x, 15.0, r=2.0, bottom=2.0 - 4.0, out="feed")
 part.rapid(z=60.0)
 part.spindle("stopped")
+
+part = Milled("obstacle", "The cycle's own block drills where the tool stands (setting 28, as preferred); X45. L0 goes past a corner at R2. and\n"
+                          "drills nothing; a Z alone tells the holes to come (manual of 2017, p. 243 to 247).", metric=True)
+part.work(1)
+part.rapid(10.0, -5.0)
+part.rapid(z=5.0)
+part.hole(10.0, -5.0, r=2.0, bottom=-20.0, f=150.0)
+part.hole(30.0, -5.0, r=2.0, bottom=-20.0)
+part.rapid(45.0, -5.0)
+part.hole(45.0, -20.0, r=2.0, bottom=-20.0)
+part.hole(45.0, -40.0, r=2.0, bottom=-25.0)
+part.rapid(z=5.0)
+
+part = Milled("turns", "An arc in G91 with L5 is cut five times, 1.5 higher each (manual of 2017, p. 257).", metric=True)
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(z=2.0)
+part.feed(z=-20.0, f=200.0)
+part.feed(6.0, f=100.0)
+for turn in range(1, 6):
+    part.arc(6.0, 0.0, (0.0, 0.0), +1, z=-20.0 + 1.5 * turn, f=120.0)
+part.feed(0.0)
+part.rapid(z=5.0)
+part.to("fanuc", "calls/repeats.rs")
+
+part = Milled("way-back", "G28 goes by (30, 40) to the reference position, and G29 by that point to (50, 60) (manual of 2017, p. 263).",
+              metric=True, home=(7.0, 8.0, 0.0))
+part.work(1)
+part.rapid(10.0, 20.0)
+part.rapid(z=5.0)
+part.rapid(30.0, 40.0)
+part.machine(x=7.0, y=8.0)
+part.rapid(30.0, 40.0)
+part.rapid(50.0, 60.0)

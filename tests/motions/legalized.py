@@ -193,8 +193,9 @@ part.feed(1.0, f=20.0)
 part.rapid(2.0, 2.0)
 part.feed(3.0)
 part.feed(y=0.0)
-for target in ("fanuc", "haas"):
-    part.to(target, "calls/repeats.rs", "moves/rapid_once.rs", "moves/units.rs")
+part.to("fanuc", "calls/repeats.rs", "moves/rapid_once.rs", "moves/units.rs")
+# A Haas repeats moves as well.
+part.to("haas", "moves/rapid_once.rs", "moves/units.rs")
 
 part = Short("fadal", "rows", "FX(2) is 10, so FX(3) becomes 35.4 and FY(3) 5 - 12.7; INT(35.4) is 35.", units="inch",
              offsets={2: (254.0, 127.0, 0.0), 3: (1.0, 2.0, 0.0)})

@@ -62,14 +62,15 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         (true, true) => rules.cycle_block_runs.ask(trace),
         (false, true) => true,
         (true, false) => rules.cycle_runs_without_axes.ask(trace),
-        (false, false) => depths && rules.cycle_runs_without_axes.ask(trace),
+        (false, false) => depths && rules.cycle_runs_by_depth.ask(trace),
     };
     if count == 0 && places {
         // What L0 does elsewhere than storing is not known.
         rules.zero_repeats_stores.ask(trace);
     }
     if !runs || count == 0 {
-        return place_only(machine, command, (runs, count), trace);
+        place_only(machine, command, count, trace);
+        return Ok(());
     }
     for turn in 0..count {
         if turn > 0 {
@@ -91,22 +92,15 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     Ok(())
 }
 
-/// A block that stores a cycle and does not drill still goes to its place, unless its count is zero.
-fn place_only(
-    machine: &mut Machine,
-    command: &Command,
-    (runs, count): (bool, u32),
-    trace: &mut Trace,
-) -> Result<(), Stop> {
+/// A block that stores a cycle and does not drill still goes to its place; what it does with a count of zero is asked.
+fn place_only(machine: &mut Machine, command: &Command, count: u32, trace: &mut Trace) {
     let (_, _, along) = machine.plane.axes();
-    if !runs && count != 0 {
+    let named = command.axes().any(|(axis, _)| axis != along);
+    if count != 0 || named && machine.rules.zero_repeats_moves.ask(trace) {
         let mut to = machine.target(&across(command, along));
         to[along] = machine.position[along];
         machine.rapid_to(to, trace);
-    } else if command.axes().any(|(axis, _)| axis != along) {
-        trace.doubt("machine:cycle.l0.moves");
     }
-    Ok(())
 }
 
 /// The block without its word along the drilling axis, which is the depth.

@@ -96,6 +96,8 @@ pub struct Machine {
     path_mode: Op,
     polar: bool,
     references: [Axes; 2],
+    /// The point that the last return to the reference position went through.
+    by_way_of: Option<Axes>,
     /// What only a lathe has.
     lathe: lathe::Lathe,
     probes: std::vec::IntoIter<Probe>,
@@ -152,6 +154,7 @@ impl Machine {
             path_mode: Op::CuttingMode,
             polar: false,
             references: scenario.references,
+            by_way_of: None,
             lathe: lathe::Lathe::default(),
             probes: scenario.probes.clone().into_iter(),
             peck_clearance,

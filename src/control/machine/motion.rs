@@ -66,9 +66,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             }
             Op::Threading => return lathe::thread::many(machine, command, trace).map(|()| false),
             Op::ReferenceFrom => {
-                trace.doubt("machine:reference.from");
-                let to = machine.target(command);
-                machine.rapid_to(to, trace);
+                from_reference(machine, command, trace);
                 return Ok(false);
             }
             Op::Probe | Op::ProbeOther => {
@@ -102,6 +100,25 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
         return Ok(false);
     }
     lathe::way::doubt_motion(machine, trace);
+    // A drilling cycle counts its own repeats.
+    let count = match command.number(Role::Repeat) {
+        Some(count) if count != 1 && machine.rules.repeats_move.ask(trace) => count,
+        _ => 1,
+    };
+    for turn in 0..count {
+        if turn > 0 {
+            machine.round_in(command, trace);
+        }
+        once(machine, command, trace)?;
+        if trace.is_full() {
+            break;
+        }
+    }
+    Ok(machine.motion != Op::Rapid && !command.has(Op::RapidOnce))
+}
+
+/// The move of a block, once.
+fn once(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     match machine.motion {
         _ if command.has(Op::RapidOnce) => {
             let to = machine.target(command);
@@ -137,7 +154,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             machine.feed_to(to, trace);
         }
     }
-    Ok(machine.motion != Op::Rapid && !command.has(Op::RapidOnce))
+    Ok(())
 }
 
 /// True where the axis words of a block are not for moving.
@@ -164,6 +181,7 @@ fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut
     if command.has_axes() {
         let by = machine.target(command);
         machine.rapid_to(by, trace);
+        machine.by_way_of = Some(by);
     }
     let mut to = machine.position;
     let along = named.contains(&LENGTH_AXIS);
@@ -174,6 +192,20 @@ fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut
     machine.rapid_to(to, trace);
     machine.may_lose_length(LostBy::Reference, along);
     Ok(())
+}
+
+/// From the reference position by way of the point of the last return, and on to the block's.
+fn from_reference(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    trace.doubt("machine:reference.from");
+    if let Some(point) = machine.by_way_of {
+        let mut by = machine.position;
+        for (axis, _) in machine.named_axes(command) {
+            by[axis] = point[axis];
+        }
+        machine.rapid_to(by, trace);
+    }
+    let to = machine.target(command);
+    machine.rapid_to(to, trace);
 }
 
 fn in_machine_coordinates(machine: &mut Machine, command: &Command, trace: &mut Trace) {

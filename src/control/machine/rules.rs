@@ -104,8 +104,11 @@ pub struct Rules {
     /// How far over the last depth a peck begins, where the machine's profile says it: millimetres.
     pub peck_clearance: Option<f64>,
     pub zero_repeats_stores: Fact<bool>,
+    pub zero_repeats_moves: Fact<bool>,
+    pub repeats_move: Fact<bool>,
     pub cycle_block_runs: Fact<bool>,
     pub cycle_runs_without_axes: Fact<bool>,
+    pub cycle_runs_by_depth: Fact<bool>,
     pub rotation_runs_cycle: Fact<bool>,
     pub rotation_is_ccw: Fact<bool>,
     pub motion_ends_cycle: Fact<bool>,
@@ -197,9 +200,12 @@ impl Rules {
                 .and_then(|row| row.value.parse().ok()),
             planes_frozen: yes(control, Question::CyclePlanesFrozen, true),
             zero_repeats_stores: yes(control, Question::CycleL0Stores, true),
+            repeats_move: yes(control, Question::RepeatMoves, false),
+            zero_repeats_moves: yes(control, Question::CycleL0Moves, false),
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
                 .or_silent(control, Question::CycleBlockRuns),
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),
+            cycle_runs_by_depth: yes(control, Question::CycleRunsByDepth, false),
             rotation_runs_cycle: yes(control, Question::RotationRunsCycle, false),
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
             motion_ends_cycle: yes(control, Question::CycleEndsByMotion, true)

@@ -6,7 +6,7 @@
 
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Question, Side, matters};
+use crate::dialect::{Control, Question, Side, matters};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
@@ -25,10 +25,13 @@ pub fn concerns(features: &Features) -> bool {
 /// Reports what the programs of a library rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let cycles = context.features.any_op(Op::is_cycle);
+    let starts =
+        context.source.is(Question::CycleStartsSpindle) && !context.target.is(Question::CycleStartsSpindle);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
+            let mut stands = false;
             for stmt in &block.stmts {
                 let span = stmt.site.span;
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
@@ -42,8 +45,17 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         both(context, index, span, Question::CyclePlanesFrozen);
                     }
                     arc(nc, index, span, context);
+                    stands = stands_after(nc, stands);
+                    if let Some(state) = state.as_ref().filter(|_| starts)
+                        && turned_by_cycle(nc, stands, state)
+                    {
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
+                    }
                     if nc.word(Role::Repeat).is_some_and(|count| count.constant().is_none_or(|n| n < 1.0)) {
                         context.must_agree(index, span, Question::CycleL0Stores);
+                        if goes_somewhere(nc, state.as_ref()) {
+                            stored_place(context, index, span);
+                        }
                     }
                 }
                 if let Some(state) = &mut state {
@@ -88,6 +100,47 @@ fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
         }
         _ => {}
     }
+}
+
+const PLACE: &str = "of one of the two controls alone it is known whether it goes to a position beside a repeat count of 0: write the \
+     position into a block of its own, after the end of the cycle, or say it of the other control in its machine profile, \
+     as cycle.l0.moves";
+
+/// A position beside a count of 0 must be gone to by both controls, or by neither.
+fn stored_place(context: &mut Context<'_>, index: usize, span: Span) {
+    both(context, index, span, Question::CycleL0Moves);
+    let known = |control: &Control| {
+        control.behaviour(Question::CycleL0Moves).is_some_and(|row| row.value != "unknown")
+    };
+    if known(context.source) != known(context.target) {
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, PLACE));
+    }
+}
+
+const STANDS: &str = "the spindle stands here, and the source's drilling cycle starts it by itself; the target's does not: write M3 or \
+     M4 before the cycle";
+
+/// True where a tool change has stopped the spindle, and nothing has said since what it does.
+fn stands_after(nc: &Nc, stands: bool) -> bool {
+    let says = nc.ops().any(|op| op.group() == Group::Spindle);
+    (stands || nc.has(Op::ToolChange)) && !says
+}
+
+/// True where a cycle begins that finds the spindle standing.
+fn turned_by_cycle(nc: &Nc, stands: bool, before: &Modal) -> bool {
+    let taps = nc.ops().any(Op::is_tap);
+    let says = nc.ops().any(|op| op.group() == Group::Spindle);
+    let stopped = before.op(Group::Spindle) == Some(Op::SpindleStop);
+    let stored = nc.word(Role::Repeat).and_then(Expr::constant) == Some(0.0);
+    nc.ops().any(Op::is_cycle) && !says && !stored && (stands || taps && stopped)
+}
+
+/// True where a block of a drilling cycle has a position.
+fn goes_somewhere(nc: &Nc, state: Option<&Modal>) -> bool {
+    let drills =
+        nc.ops().any(Op::is_cycle) || state.is_some_and(|state| state.op(Group::Cycle) != Some(Op::CycleOff));
+    let across = |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_axis() && *role != Role::Z);
+    drills && nc.items.iter().any(across)
 }
 
 /// True where whole numbers may give one that is none. Variables that count are taken to.

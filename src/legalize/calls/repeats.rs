@@ -3,6 +3,7 @@
 //! Law: a block with a repeat of n does n times what it does once; so does a loop that runs the block and counts n
 //! down. Side conditions: no drilling cycle is in force (there the target repeats as well), and n is 1 or
 //! more, since what a repeat of none does is not the same everywhere.
+//! Where the source moves once whatever the count, and the target would repeat, the count goes.
 //! Words of a block that is repeated are computed once; under a modal call the macro may change what they are
 //! computed from, so such a block is refused.
 //! Counter-example: `X1. L3` under a cycle whose state is not known here, which is refused.
@@ -11,13 +12,13 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{
-    BinOp, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo, StmtKind, TermKind,
-    Var,
+    BinOp, BlockId, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo, StmtKind,
+    TermKind, Var,
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use crate::legalize::{Context, Modal, ModalFacts};
 
-/// Unrolls repeated moves into loops, where only the source has them.
+/// Unrolls repeated moves into loops, where only the source has them; where only the target has, a count goes.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let ncs = |program: &Program, wanted: &dyn Fn(&Nc) -> bool| {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
@@ -31,6 +32,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let drills = module.programs.iter().any(|program| ncs(program, &|nc| nc.ops().any(Op::is_cycle)));
     let facts = context.modal_facts(module);
+    if !context.source.is(Question::RepeatMoves) && context.target.is(Question::RepeatMoves) {
+        return affected
+            .into_iter()
+            .for_each(|index| once(&mut module.programs[index], index, drills, &facts, context));
+    }
     if !context.source.is(Question::RepeatMoves) || context.target.is(Question::RepeatMoves) {
         return affected
             .into_iter()
@@ -53,6 +59,28 @@ fn doubt(program: &Program, index: usize, drills: bool, facts: &ModalFacts, cont
                 context.rests_on_source(index, stmt.site.span, Question::RepeatMoves);
                 context.rests_on_target(index, stmt.site.span, Question::RepeatMoves);
             }
+        }
+    }
+}
+
+/// The source is taken to move once, whatever the count, and the target would repeat: the count goes.
+fn once(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts, context: &mut Context<'_>) {
+    for (at, block) in program.blocks.iter_mut().enumerate() {
+        let mut state = facts.at(index, BlockId(at as u32));
+        for stmt in &mut block.stmts {
+            state.step(stmt);
+            let span = stmt.site.span;
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            let cycle = state.op(Group::Cycle).or((!drills).then_some(Op::CycleOff));
+            if nc.word(Role::Repeat).is_none() || cycle.is_some_and(Op::is_cycle) {
+                continue;
+            }
+            context.rests_on_source(index, span, Question::RepeatMoves);
+            if cycle.is_none() {
+                let what = "the count repeats the drilling cycle on some paths to this block, and on the target the move on others";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+            }
+            nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Repeat, _)));
         }
     }
 }

@@ -13,25 +13,40 @@
 
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::programmed::Programmed;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use crate::legalize::Context;
 use std::collections::BTreeMap;
 
+/// What the two controls do with a block of a cycle that has no position.
+#[derive(Clone, Copy)]
+struct Bare {
+    question: Question,
+    /// True where nothing need be added: they do the same, or the source is taken not to drill and the target does not.
+    agree: bool,
+    /// True where the source drills.
+    drills: bool,
+}
+
+impl Bare {
+    fn of(question: Question, source: &Control, target: &Control) -> Self {
+        let answer = |control: &Control| control.behaviour(question).map(|row| row.value.clone());
+        let (ours, theirs) = (answer(source), answer(target));
+        let drills = ours.as_deref() == Some("true");
+        Self { question, agree: ours == theirs || !drills && theirs.as_deref() == Some("false"), drills }
+    }
+}
+
 /// Replaces the code that runs a cycle where the tool stands.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let native = context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some();
     let facts = context.modal_facts(module);
-    // What a bare definition does differs only where the two controls do not agree on it.
-    let runs = |control: &crate::dialect::Control| {
-        control.behaviour(Question::CycleRunsWithoutAxes).map(|b| b.value.clone())
-    };
-    let agree = runs(context.target) == runs(context.source);
-    if native && agree {
+    let bare_ones = [Question::CycleRunsWithoutAxes, Question::CycleRunsByDepth]
+        .map(|question| Bare::of(question, context.source, context.target));
+    if native && bare_ones.iter().all(|bare| bare.agree) {
         return;
     }
-    let drills = runs(context.source).as_deref() == Some("true");
     let has = |state| context.target.system_runs(state).next().is_some();
     let stands = [Sys::EndPosition, Sys::WorkPosition].into_iter().find(|state| has(*state));
     let summaries = context.summaries(module);
@@ -64,6 +79,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     && !here
                     && !placed
                     && nc.word(Role::Repeat).is_none();
+                let Bare { question, agree, drills } = bare_ones[usize::from(!defines)];
                 let asked = here || bare && !agree;
                 if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
                     let what = "the plane is not known here, so neither is the axis that the cycle drills along: \
@@ -72,9 +88,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     continue;
                 }
                 if bare && !context.source.is_same_machine(context.target) {
-                    context.rests_on_source(index, span, Question::CycleRunsWithoutAxes);
+                    context.rests_on_source(index, span, question);
                     if agree {
-                        context.rests_on_target(index, span, Question::CycleRunsWithoutAxes);
+                        context.rests_on_target(index, span, question);
                     }
                 }
                 let here = here || bare && drills && !agree;

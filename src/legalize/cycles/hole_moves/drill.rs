@@ -299,6 +299,8 @@ pub(super) struct Runs {
     pub with_place: bool,
     /// True if one drills where the tool stands, if it has none.
     pub without: bool,
+    /// True if a block with a new depth or retract plane alone drills where the tool stands.
+    pub by_depth: bool,
     /// The return plane where no program names one.
     pub returns: Option<Op>,
 }
@@ -320,7 +322,7 @@ impl Runs {
             (true, true) => self.with_place,
             (false, true) => true,
             (true, false) => self.without,
-            (false, false) => depths() && self.without,
+            (false, false) => depths() && self.by_depth,
         }
     }
 }

@@ -52,6 +52,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let rules = Runs {
         with_place: value(Question::CycleBlockRuns) != Some("false"),
         without: value(Question::CycleRunsWithoutAxes) == Some("true"),
+        by_depth: value(Question::CycleRunsByDepth) == Some("true"),
         // Controls begin so, and nothing in the library changes it.
         returns: (!Features::of(&module.programs).op(Op::ReturnR)).then_some(Op::ReturnInitial),
     };
@@ -208,9 +209,7 @@ impl Writer<'_, '_> {
         let words = nc.items.iter().filter(|item| !tells(item)).cloned().collect::<Vec<_>>();
         if let Some(0.0) = count.as_ref().and_then(Expr::constant) {
             self.context.rests_on_source(self.index, span, Question::CycleL0Stores);
-            let words =
-                words.into_iter().filter(|item| !matches!(item, NcItem::Word(role, _) if role.is_axis()));
-            return push(builder, words.collect(), site);
+            return self.stored(builder, words, site);
         }
         let across = || [Role::X, Role::Y].into_iter().filter_map(|role| nc.word(role));
         if begins && across().next().is_none() && !nc.has(Op::CycleHere) {
@@ -284,6 +283,20 @@ impl Writer<'_, '_> {
         builder.end(TermKind::Jump(head), SourceInfo::default());
         builder.start(after);
         skipped.into_iter().for_each(|after| builder.start(after));
+    }
+
+    /// A block whose count of 0 keeps it from drilling: its position is gone to, or left out.
+    fn stored(&mut self, builder: &mut Builder, mut words: Vec<NcItem>, site: SourceInfo) {
+        let place = |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_axis());
+        if words.iter().any(place) {
+            self.context.rests_on_source(self.index, site.span, Question::CycleL0Moves);
+            if self.context.source.is(Question::CycleL0Moves) {
+                words.insert(0, NcItem::Op(Op::Rapid));
+            } else {
+                words.retain(|item| !place(item));
+            }
+        }
+        push(builder, words, site);
     }
 
     /// Goes past the hole where every word of its place is vacant: the block has none then.
