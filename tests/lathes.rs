@@ -71,7 +71,7 @@ fn program(source: &mut Source) -> String {
 const HOME: &str = "G0 X64. Z3.";
 
 fn part(source: &mut Source, number: u64, out: &mut String) {
-    let _ = match source.below(10) {
+    let _ = match source.below(12) {
         0 => {
             let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
             writeln!(out, "G90 X58. {end}{taper} F.2\nX56.\nX54.")
@@ -110,6 +110,19 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
             source.pick(&["920", "1200"])
         ),
         8 => writeln!(out, "G1 U-4. F.15\nW-8.\nX58. W-2.\nG4 {}", source.pick(&["P500", "U.5", "X1."])),
+        9 => writeln!(
+            out,
+            "G1 X60. F.2\nZ-{} {}\nX66. {}\nZ-9.",
+            source.pick(&["4.", "6."]),
+            source.pick(&["R.8", "I.5", ",C.5", ",R.6"]),
+            source.pick(&["K-.5", "R-.4", ",R.5", ""])
+        ),
+        10 => writeln!(
+            out,
+            "G1 X{} ,A{}. F.2\nG0 X66.",
+            source.pick(&["60.", "56."]),
+            source.pick(&["30", "45", "135"])
+        ),
         _ => writeln!(
             out,
             "#1=0\nWHILE[#1LT{}]DO1\nG90 X[60.-#1*2] Z-15. F.2\n#1=#1+1\nEND1",

@@ -44,6 +44,16 @@ super::vocabulary! {
         CornerRadius = "corner.radius",
         /// Corner chamfer after the block (`,C`).
         CornerChamfer = "corner.chamfer",
+        /// Chamfer after a block along Z: the next one goes along X, the way of the sign (a radius).
+        ChamferX = "chamfer.x",
+        /// Chamfer after a block along X: the next one goes along Z, the way of the sign.
+        ChamferZ = "chamfer.z",
+        /// Chamfer after a block along one axis: the next one goes along the other, the way of the sign.
+        ChamferNext = "chamfer.next",
+        /// The same, rounded.
+        RoundNext = "round.next",
+        /// Angle of a straight line on a lathe, from Z counter-clockwise, degrees: one axis word gives its end.
+        LineAngle = "line.angle",
         /// Feed, in units per minute or per turn as the feed mode says.
         Feed = "feed",
         /// Spindle speed, turns per minute (surface speed under constant surface speed).
@@ -296,7 +306,10 @@ impl Role {
 
     /// True for an angle, counted in least increments of a degree where no point is written.
     pub const fn is_angle(self) -> bool {
-        matches!(self, Role::A | Role::B | Role::C | Role::StepC | Role::Angle | Role::PolarAngle)
+        matches!(
+            self,
+            Role::A | Role::B | Role::C | Role::StepC | Role::Angle | Role::PolarAngle | Role::LineAngle
+        )
     }
 
     /// True for a scale factor.
@@ -342,6 +355,10 @@ impl Role {
                 | Role::ArcRadius
                 | Role::CornerRadius
                 | Role::CornerChamfer
+                | Role::ChamferX
+                | Role::ChamferZ
+                | Role::ChamferNext
+                | Role::RoundNext
                 | Role::CycleR
                 | Role::CycleQ
                 | Role::PeckFirst

@@ -32,7 +32,7 @@ pub(super) struct Tables {
 pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     duplicates(reader, &tables.forms, |row| row.place.name().into());
     duplicates(reader, &tables.limits, |row| row.name.clone());
-    duplicates(reader, &tables.forbidden, Row::key);
+    duplicates(reader, &tables.forbidden, Row::full_key);
     duplicates(reader, &tables.operators, |row| format!("{} {}", row.spelling, row.meaning));
     duplicates(reader, &tables.functions, |row| format!("{}/{}", row.spelling, row.arguments));
     duplicates(reader, &tables.statements, |row| row.name.clone());
@@ -70,6 +70,12 @@ pub const MEANINGS: &[&str] = &[
     "add", "subtract", "multiply", "divide", "modulo", "and.bits", "or.bits", "xor.bits", "and", "or", "xor",
     "not", "negate", "eq", "ne", "lt", "le", "gt", "ge",
 ];
+
+/// What of a machine the value of a setting may be, where that is no word of a code: how far the end of an arc may lie off its
+/// circle; the angle of the run-out of a thread, degrees; what the feed of a lathe counts at power-on, `turn` or `minute`.
+/// The first and the last M code by which the paths of a machine wait for each other, and the mark before a path's part of a file.
+pub const TELLS: &[&str] =
+    &["arc.limit", "thread.run.out.angle", "lathe.feed", "paths.wait.first", "paths.wait.last", "paths.mark"];
 
 /// Statements that a control can have.
 pub const STATEMENTS: &[&str] = &[
@@ -265,6 +271,9 @@ fn settings(reader: &mut Reader, tables: &Tables) {
             let values: Vec<&str> = row.values.iter().map(String::as_str).collect();
             one_of(reader, placed, default, &values);
         }
+        if let Some(tells) = row.tells.as_deref() {
+            one_of(reader, placed, tells, TELLS);
+        }
         for (target, value) in row.sets.values().flatten() {
             let known = match target.split_once(':') {
                 Some(("behaviour", name)) => {
@@ -288,7 +297,8 @@ fn settings(reader: &mut Reader, tables: &Tables) {
 fn conditions(reader: &mut Reader, tables: &Tables) {
     let rows = (tables.codes.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
         .chain(tables.words.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
-        .chain(tables.system.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)));
+        .chain(tables.system.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
+        .chain(tables.forbidden.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)));
     for (place, machine, when) in rows {
         if let Some(machine) = machine
             && !matches!(machine.as_str(), "mill" | "lathe")

@@ -4,8 +4,8 @@ use super::control_codes::{Alias, address, aliases};
 use super::profile::{Machine, Profile, Units, VariableRun};
 use super::start::StartMode;
 use super::{
-    BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Forbidden, Function, Limit, Numbers, Operator,
-    Question, Setting, Statement, Text, VariableClass,
+    BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Question,
+    Setting, Statement, Text, VariableClass,
 };
 use crate::canon::{Func, Op, Sys};
 use foldhash::{HashMap, HashMapExt};
@@ -208,16 +208,6 @@ impl Control {
     /// A limit with its alarm and its source.
     pub fn limit_row(&self, name: &str) -> Option<&Limit> {
         self.dialect.limits.iter().find(|row| row.name == name)
-    }
-
-    /// What an operation may not stand under: the row, if it is a fault while one of `in_force` is in force and none of
-    /// its exceptions.
-    pub fn forbids(&self, op: Op, in_force: impl Fn(Op) -> bool) -> Option<&Forbidden> {
-        self.dialect.forbidden.iter().find(|row| {
-            row.ops.contains(&op)
-                && row.under.iter().any(|under| *under != op && in_force(*under))
-                && !row.unless.iter().any(|one| in_force(*one))
-        })
     }
 
     /// A statement, where the control has it.

@@ -1,6 +1,7 @@
 //! The shape of `dialects/*.toml`. Every row says where it comes from, and how
 //! sure it is.
 
+use super::Forbidden;
 use super::Origin;
 use super::forms::{Form, LineCounts, Names};
 use super::rows::*;

@@ -173,6 +173,7 @@ impl Overlay {
         dialect.other_codes.retain(|row| row.when.is_some());
         dialect.system.retain(|row| here(&row.machine, &row.when, &row.option));
         dialect.words.retain(|row| here(&row.machine, &row.when, &None));
+        dialect.forbidden.retain(|row| here(&row.machine, &row.when, &None));
         dialect.variables.retain(|row| has(&row.option));
         dialect.functions.retain(|row| has(&row.option));
         dialect.operators.retain(|row| has(&row.option));

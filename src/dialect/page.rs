@@ -60,7 +60,13 @@ pub fn page(control: &Control) -> String {
         let names = |ops: &[Op]| ops.iter().map(|op| op.name()).collect::<Vec<_>>().join(", ");
         let unless =
             if row.unless.is_empty() { String::new() } else { format!("but in {}", names(&row.unless)) };
-        vec![format!("under {}", names(&row.under)), names(&row.ops), unless]
+        let words = row.words.iter().map(|role| role.name()).collect::<Vec<_>>().join(", ");
+        match (row.words.is_empty(), row.negative) {
+            (true, _) => vec![format!("under {}", names(&row.under)), names(&row.ops), unless],
+            (false, true) => vec!["below 0".into(), words],
+            (false, false) if row.ops.is_empty() => vec!["anywhere".into(), words],
+            (false, false) => vec![format!("beside {}", names(&row.ops)), words],
+        }
     });
     section(&mut out, "OPERATORS", &dialect.operators, |row| {
         let place = if row.condition_only { "in conditions" } else { "" };

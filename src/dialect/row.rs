@@ -70,8 +70,13 @@ row! {
     Limit "limits" "limit" |row| row.name.clone();
     Forbidden "forbidden" "forbidden" |row| {
         let first = |ops: &[Op]| ops.first().map_or("", |op| op.name());
-        format!("{}/{}", first(&row.under), first(&row.ops))
-    };
+        match row.words.first() {
+            Some(word) if row.negative => format!("{word}/negative"),
+            Some(word) if row.ops.is_empty() => format!("{word}/any"),
+            Some(word) => format!("{word}/{}", first(&row.ops)),
+            None => format!("{}/{}", first(&row.under), first(&row.ops)),
+        }
+    }, limited;
     Operator "operators" "operator" |row| row.meaning.clone();
     Function "functions" "function" |row| match row.arguments {
         1 => row.function.name().into(),

@@ -20,22 +20,6 @@ pub struct Limit {
     pub origin: Origin,
 }
 
-/// What the control takes for a fault while a code is in force.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Forbidden {
-    /// The codes one of which is in force.
-    pub under: Vec<Op>,
-    /// What may not stand in a block then.
-    pub ops: Vec<Op>,
-    /// Modes in which it may.
-    #[serde(default)]
-    pub unless: Vec<Op>,
-    /// Where it comes from.
-    #[serde(skip_deserializing)]
-    pub origin: Origin,
-}
-
 /// An operator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -352,9 +336,13 @@ pub struct Setting {
     pub sets: BTreeMap<String, BTreeMap<String, String>>,
     /// The word that cycles of `cycles` have no letter for here: the value of the setting stands for it.
     pub gives: Option<Role>,
+    /// The word that the cycles take from the setting where no block says it.
+    pub otherwise: Option<Role>,
     /// The operations that take it.
     #[serde(default)]
     pub cycles: Vec<Op>,
+    /// What of the machine its value is, where that is no word: a name of [`TELLS`](super::TELLS).
+    pub tells: Option<String>,
     /// The last of a run of settings that begins with this one.
     pub through: Option<u32>,
     /// For a setting that gives a code a program: the code whose number is its value.

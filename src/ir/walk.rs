@@ -185,6 +185,11 @@ impl Expr {
 }
 
 impl StmtKind {
+    /// The alarm of a draft, in the place of what has no conversion.
+    pub fn not_converted(code: &str) -> Self {
+        Self::Alarm { number: Expr::Number(99.0).into(), text: format!("NOT CONVERTED {code}").into() }
+    }
+
     /// Its NC words, where it is a block of them.
     pub fn nc(&self) -> Option<&Nc> {
         if let StmtKind::Nc(nc) = self { Some(nc) } else { None }

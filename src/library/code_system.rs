@@ -8,7 +8,7 @@
 
 use super::Input;
 use super::machine_kind::{names_machine, place};
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CODE_SYSTEM, CodeMeaning, Control, Plain};
 use crate::ir::Module;
@@ -72,6 +72,15 @@ struct Words {
 }
 
 impl Words {
+    /// True where the block has no other letters.
+    fn is_alone(&self, letters: &str) -> bool {
+        self.all.iter().all(|(letter, _)| letters.contains(*letter))
+    }
+
+    fn value(&self, letter: char) -> Option<f64> {
+        self.all.iter().find(|(found, _)| *found == letter).and_then(|(_, value)| *value)
+    }
+
     fn has(&self, letters: &str) -> bool {
         self.all.iter().any(|(letter, _)| letters.contains(*letter))
     }
@@ -89,11 +98,12 @@ impl<'c> Systems<'c> {
 
     /// The first code of a file that shows another system.
     fn sign(&self, file: usize, input: &Input) -> Option<Sign> {
-        let mut fed = false;
+        let (mut fed, mut faced) = (false, false);
         for block in parse_file(&input.bytes, self.own.entry().parse_items).blocks {
             let mut words = Words::default();
             for_each_item(&block.items, &mut |item| {
                 fed &= !matches!(item.kind, ItemKind::Program(_));
+                faced &= !matches!(item.kind, ItemKind::Program(_));
                 let ItemKind::Word(word) = &item.kind else { return };
                 let value = word.value.as_ref().and_then(|value| match &value.kind {
                     ExprKind::Number(number) => Some(number.value),
@@ -104,9 +114,12 @@ impl<'c> Systems<'c> {
             });
             fed |= words.has("FE");
             for (code, span) in &words.codes {
-                if let Some(what) = self.other(*code, &words, fed) {
+                let other = self.other(*code, &words, fed).or_else(|| self.unlike(*code, &words, faced));
+                if let Some(what) = other {
                     return Some(Sign { file, span: *span, what });
                 }
+                let op = self.own.code('G', *code, &words.all).map(|row| row.op);
+                faced |= matches!(op, Some(Op::FacingSetup | Op::RoughFacing)) && !words.is_alone("GPQN");
             }
         }
         None
@@ -140,6 +153,32 @@ impl<'c> Systems<'c> {
                 "a unit in it, and the block is a pass"
             }
             Some(_) => return None,
+        };
+        Some(format!("G code system {} is assumed, G{code} is {why}; {}", self.name, told(&rows)))
+    }
+
+    /// Why the words of a cycle are another one's: a roughing that no block and no word tells anything of, where another system
+    /// has a finishing; a count of passes that is no whole number, where another one has a way back.
+    fn unlike(&self, code: f64, words: &Words, faced: bool) -> Option<String> {
+        let rows = self.others.iter().filter_map(|(name, control)| {
+            let row = control.code('G', code, &words.all)?;
+            Some((name.as_str(), row))
+        });
+        let rows: Vec<(&str, &CodeMeaning)> = rows.collect();
+        let elsewhere = |op: Op| rows.iter().any(|(_, row)| row.op == op);
+        let row = self.own.code('G', code, &words.all)?;
+        let passes = row.words.iter().find(|(_, role)| **role == Role::Passes);
+        let passes = passes.and_then(|(letter, _)| words.value(letter.chars().next()?));
+        let why = match row.op {
+            Op::RoughFacing if words.is_alone("GPQN") && !faced && elsewhere(Op::Finish) => {
+                "a roughing in it, and no block says how deep"
+            }
+            Op::PatternSetup
+                if passes.is_some_and(|passes| passes.fract() != 0.0) && elsewhere(Op::TurningSetup) =>
+            {
+                "a repeated pattern in it, and R would be its count"
+            }
+            _ => return None,
         };
         Some(format!("G code system {} is assumed, G{code} is {why}; {}", self.name, told(&rows)))
     }
@@ -230,6 +269,8 @@ mod tests {
             "G92 X200. Z100.",
             "G20 X48. Z-20. F.2",
             "G21 X48. Z-20. F1.5",
+            "G73 U2. R.5\nG73 P10 Q20 U.4 W.1 F.25\nN10 G0 X40.\nN20 G1 Z-20.",
+            "N10 G0 X40.\nN20 G1 Z-20.\nG72 P10 Q20",
         ] {
             assert!(shows(block), "{block}");
         }
@@ -247,6 +288,8 @@ mod tests {
             "G98 G1 Z-20. F100.",
             "G50 S2000",
             "G32 Z-20. F1.5",
+            "G72 W2. R1.\nG72 P10 Q20\nN10 G0 Z-5.\nN20 G1 X20.",
+            "G73 U2. W1. R3\nG73 P10 Q20\nN10 G0 X40.\nN20 G1 Z-20.",
             "G71 U2. R1.\nG71 P10 Q20 U.4 W.1 F.2\nN10 G0 X40.\nN20 G1 Z-20.\nG70 P10 Q20",
         ] {
             assert!(!shows(block), "{block}");

@@ -133,6 +133,7 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
             diagnostics.sort_by_key(|d| (d.span.start, d.code));
             diagnostics.dedup();
             super::echoes::drop_echoes(&mut diagnostics);
+            super::two_paths::drop_others(&mut diagnostics);
             let outcome = outcome(&diagnostics);
             let mut map = Vec::new();
             let start = text.len();

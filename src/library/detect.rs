@@ -1,7 +1,7 @@
 //! Which control a library is written for, by its text.
 
 use super::Input;
-use crate::dialect::{Control, Entry, registry};
+use crate::dialect::{CODE_SYSTEM, Control, Entry, Plain, registry};
 use crate::syntax::{ExprKind, ItemKind, for_each_item, parse_file};
 use rayon::prelude::*;
 use std::sync::LazyLock;
@@ -83,7 +83,8 @@ pub fn likeness(inputs: &[Input]) -> Vec<(&'static Entry, f64)> {
 pub fn looks_like(inputs: &[Input], named: &str) -> Option<String> {
     let step = inputs.len().div_ceil(FEW).max(1);
     let some: Vec<Input> = inputs.iter().step_by(step).map(head).collect();
-    if reads_most(&Control::plain(named)?, &some) {
+    let own = CONTROLS.iter().find(|(_, entry)| entry.name == named)?;
+    if own.0.iter().any(|control| reads_most(control, &some)) {
         return None;
     }
     let files = scores(&some, SHORT);
@@ -124,16 +125,32 @@ fn start(bytes: &[u8], most: usize) -> &[u8] {
     }
 }
 
-/// Every control without a profile.
-static CONTROLS: LazyLock<Vec<(Control, &'static Entry)>> = LazyLock::new(|| {
-    let plain = |entry: &'static Entry| Some((Control::plain(entry.name)?, entry));
+/// Every control without a profile, with each kind of machine and G code system that its table has.
+static CONTROLS: LazyLock<Vec<(Vec<Control>, &'static Entry)>> = LazyLock::new(|| {
+    let plain = |entry: &'static Entry| Some((kinds(&Control::plain(entry.name)?), entry));
     registry::all().iter().filter_map(plain).collect()
 });
+
+/// A control as a mill, and as a lathe by each of its systems.
+fn kinds(control: &Control) -> Vec<Control> {
+    let lathe = super::kind::as_lathe(control);
+    let systems = lathe.iter().flat_map(|lathe| match lathe.open_code_system() {
+        Some((_, row)) => row.values.iter().filter_map(|system| of_system(lathe, system)).collect(),
+        None => vec![lathe.clone()],
+    });
+    std::iter::once(control.clone()).chain(systems).collect()
+}
+
+fn of_system(lathe: &Control, system: &str) -> Option<Control> {
+    let mut profile = lathe.profile().clone();
+    profile.settings.insert(CODE_SYSTEM.into(), Plain::Word(system.into()));
+    Control::new(lathe.entry(), profile).ok()
+}
 
 /// How each control reads each file.
 fn scores(inputs: &[Input], most: usize) -> Vec<Vec<(Score, &'static Entry)>> {
     let of = |input: &Input| {
-        CONTROLS.iter().map(|(c, entry)| (score(c, start(&input.bytes, most)), *entry)).collect()
+        CONTROLS.iter().map(|(kinds, entry)| (best(kinds, start(&input.bytes, most)), *entry)).collect()
     };
     inputs.par_iter().map(of).collect()
 }
@@ -143,6 +160,12 @@ fn of_all(files: &[Vec<(Score, &'static Entry)>]) -> Vec<(Score, &'static Entry)
         files.iter().filter_map(|file| file.get(at)).map(|(s, _)| *s).fold(Score::default(), Score::add)
     };
     registry::all().iter().enumerate().map(|(at, entry)| (sum(at), entry)).collect()
+}
+
+/// How a control reads a file as the kind of machine that the file is for.
+fn best(kinds: &[Control], bytes: &[u8]) -> Score {
+    let scores = kinds.iter().map(|control| score(control, bytes));
+    scores.max_by_key(|score| score.good).unwrap_or_default()
 }
 
 /// The blocks without fault whose codes the table knows.
@@ -185,6 +208,19 @@ mod tests {
                 Detected::Unsure(near) => assert!(near.iter().any(|near| near.name == entry.name)),
                 Detected::Mixed(_, file, like) => panic!("{file} is taken as {}", like.name),
             }
+        }
+    }
+
+    /// Its G71 and G76 are no codes of the mill's table, and G95 is none of system A.
+    #[test]
+    fn a_lathe_program_is_read_as_a_lathes() {
+        let file =
+            |name: &str, text: &str| Input { path: name.into(), name: name.into(), bytes: text.into() };
+        let a = "O1\nT0101\nG50 S2000\nG96 S180 M3\nG0 X52. Z2.\nG71 U2. R.5\nG71 P1 Q2 U.4 W.1 F.2\nN1 G0 X20.\nN2 G1 Z-20.\n\
+                 G70 P1 Q2\nG75 R.5\nG75 X10. P2000 F.1\nG28 U0 W0\nM30\n";
+        let b = "O2\nT0202\nG92 S2000\nG95 G90\nG77 X40. Z-5. F.2\nG78 X38. Z-5. F1.5\nG79 X0. Z1. F.2\nG33 Z-5. F1.5\nM30\n";
+        for text in [a, b] {
+            assert_eq!(looks_like(&[file("a.nc", text)], "fanuc"), None, "{text}");
         }
     }
 

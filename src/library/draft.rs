@@ -1,7 +1,7 @@
 //! Drafts: refused programs with an alarm at every hole, so that they cannot be run past one.
 
 use crate::diag::{Diagnostic, Severity};
-use crate::ir::{Expr, Module, Program, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{Module, Program, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 
 /// Adds the places of errors to the holes of their programs; true where any is new.
@@ -30,10 +30,7 @@ fn fill_one(program: &mut Program, hole: Span, code: &str) {
     let touches =
         |span: Span| !span.is_empty() && span.start < hole.end.max(hole.start + 1) && hole.start < span.end;
     let alarm = |span: Span| Stmt {
-        kind: StmtKind::Alarm {
-            number: Expr::Number(99.0).into(),
-            text: format!("NOT CONVERTED {code}").into(),
-        },
+        kind: StmtKind::not_converted(code),
         site: SourceInfo { span, ..SourceInfo::default() },
     };
     let mut filled = false;

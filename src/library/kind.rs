@@ -97,7 +97,7 @@ pub fn settled(
 }
 
 /// The control with the rows of a lathe; none where its profile says a kind, or its table has no such rows.
-fn as_lathe(control: &Control) -> Option<Control> {
+pub(super) fn as_lathe(control: &Control) -> Option<Control> {
     if control.profile().machine.is_some() {
         return None;
     }

@@ -31,6 +31,7 @@ mod publish;
 mod refused_calls;
 mod selection;
 mod stranger;
+mod two_paths;
 mod understood;
 mod unread;
 mod verified;

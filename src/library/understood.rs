@@ -4,7 +4,7 @@
 use super::chunks::lower::lower;
 use super::names::report_duplicates;
 use super::prepare::File;
-use super::{Input, code_system, machine_kind};
+use super::{Input, code_system, machine_kind, two_paths};
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
 use crate::ir::Module;
@@ -54,5 +54,6 @@ impl Understood {
         report_duplicates(&self.module, inputs, &mut self.found);
         machine_kind::report(&self.module, inputs, control, &mut self.found);
         code_system::report(&self.module, inputs, control, &mut self.found);
+        two_paths::report(&self.module, inputs, control, &mut self.found);
     }
 }

@@ -36,7 +36,7 @@ use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, Tool};
 use super::table::Table;
 use super::trace::{FeedMode, Plane, Side, Spindle, Trace, Zero};
-use crate::canon::{Group, Op, Pause, Sys};
+use crate::canon::{Group, Op, Pause, Role, Sys};
 use crate::dialect::{Control, Units};
 use cycle::Cycle;
 use rounding::Rounding;
@@ -245,6 +245,12 @@ impl Machine {
     /// True for a lathe.
     pub fn is_lathe(&self) -> bool {
         self.rules.lathe
+    }
+
+    /// What the value of a word is multiplied by: X of a lathe may be written as a radius (C1).
+    pub fn scale_of(&self, role: Role) -> f64 {
+        let along = matches!(role, Role::X | Role::StepX | Role::AllowanceX);
+        if along && self.rules.lathe && self.rules.turning.radii { 2.0 } else { 1.0 }
     }
 
     /// What a length along an axis is multiplied by to be a real one: X of a lathe is a diameter.

@@ -31,6 +31,10 @@ impl Machine {
         if matches!(state, Sys::MachinePosition | Sys::ProbePoint) {
             self.round_read();
         }
+        if self.rules.lathe && self.rules.turning.radii && (state.is_length() || state.is_tool_offset()) {
+            // In what it is read then no source says.
+            return None;
+        }
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             if self.rules.lathe && subscripts.last() == Some(&1) {
                 // Whether the number is a radius or a diameter no source says.

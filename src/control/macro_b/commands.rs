@@ -141,11 +141,14 @@ impl<'c> Runner<'c> {
                 command.own_code = Some(row.code.clone());
             }
             command.ops.push(row.op);
-            if row.op.is_cycle() || row.op.is_pass() {
+            // Words of the straight feed mean something by it: corners.
+            let straight = row.op == Op::Linear && !row.words.is_empty();
+            if row.op.is_cycle() || row.op.is_pass() || straight {
                 self.cycle = Some(row);
             }
         }
-        command.without_dwell = self.cycle.is_some_and(|row| !row.takes(Role::CycleDwell));
+        command.without_dwell =
+            self.cycle.is_some_and(|row| row.op != Op::Linear && !row.takes(Role::CycleDwell));
         let last = call.map_or(usize::MAX, |call| if call.alias.is_some() { 0 } else { call.word });
         let flow = meaning.codes.iter().any(|code| self.row(code.row).is_some_and(|row| row.op.is_flow()));
         for (at, word) in words.words.iter().enumerate().take(last) {
@@ -166,7 +169,7 @@ impl<'c> Runner<'c> {
                         Role::WorkOffset | Role::OffsetRow => {
                             self.session.control.canonical(row, role, value)
                         }
-                        _ => value,
+                        _ => value * self.session.machine.scale_of(role),
                     };
                     if let (None, Some(op)) =
                         (row, self.session.control.word(word.letter, word.comma).and_then(|row| row.op))

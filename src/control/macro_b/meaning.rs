@@ -103,7 +103,7 @@ pub fn of(
 }
 
 /// True where a code names the letter among its own words.
-fn reads(row: &crate::dialect::CodeMeaning, word: &Word) -> bool {
+pub fn reads(row: &crate::dialect::CodeMeaning, word: &Word) -> bool {
     row.words.keys().any(|written| {
         let (comma, letter) = match written.strip_prefix(',') {
             Some(letter) => (true, letter),

@@ -67,7 +67,7 @@ pub struct Runner<'c> {
     pub modal: [f64; 32],
     /// Last values of addresses, A at 1.
     pub addresses: [f64; 27],
-    /// The row of the drilling cycle in force.
+    /// The row of the drilling cycle in force, of a pass, or of a straight feed that has words of its own.
     pub cycle: Option<&'c CodeMeaning>,
     /// The contour that is being read.
     pub contour: Option<Contour>,
@@ -374,7 +374,9 @@ impl<'c> Runner<'c> {
             }
         }
         let cycle = self.session.machine.cycle();
-        self.cycle = cycle.and_then(|op| self.session.control.code_for(op, &Default::default()));
+        let straight = Some(self.session.machine.motion()).filter(|op| *op == Op::Linear);
+        let row = cycle.or(straight).and_then(|op| self.session.control.code_for(op, &Default::default()));
+        self.cycle = row.filter(|row| row.op != Op::Linear || !row.words.is_empty());
     }
 
     /// The meaning of words whose codes are computed or of which some are dropped.

@@ -1,6 +1,7 @@
 //! The value of a word: decimal points, least increments, whole numbers, vacancy.
 
 use super::code::{Form, Meaning, Word};
+use super::meaning::reads;
 use super::rules::{Dwell, VacantBracket};
 use super::run::Runner;
 use crate::canon::{Op, Role};
@@ -26,6 +27,9 @@ impl<'c> Runner<'c> {
                 || moves_by_itself(row.op)
         });
         if ends {
+            return alone();
+        }
+        if cycle.op == Op::Linear && !reads(cycle, word) {
             return alone();
         }
         self.session
@@ -90,7 +94,7 @@ impl<'c> Runner<'c> {
     pub fn increment_of(&self, role: Role) -> Option<f64> {
         if role.is_length() {
             Some(self.length_increment())
-        } else if role.is_axis() || matches!(role, Role::Angle | Role::PolarAngle) {
+        } else if role.is_axis() || matches!(role, Role::Angle | Role::PolarAngle | Role::LineAngle) {
             Some(self.rules.increment_degrees)
         } else {
             None

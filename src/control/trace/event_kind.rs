@@ -217,6 +217,8 @@ pub enum EventKind {
         allowance: [f64; 2],
         /// The contour, from its first place on.
         contour: Vec<Leg>,
+        /// True where its first block is a rapid: then each pass goes in rapidly.
+        rapid: bool,
         /// The feed.
         feed: f64,
         /// What the feed counts.

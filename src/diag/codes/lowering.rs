@@ -139,6 +139,11 @@ Put them into a block of their own."
 "A lathe's control is set to one of several G code systems, in which the same code means different things: G90 is a turning pass in one and absolute coordinates in another. The profile does not say which, so the programs are read by the usual one. The message names a code that this system has not, or not so. All programs of the library are for one machine, so all of them are refused, also those without such a code.
 
 Write the system into the machine profile: 'gcode_system' under [settings]. The control's parameters show it."
+
+    "0357" TwoPaths Error "one of several programs that run at the same time"
+"A lathe with two turrets or two spindles may run two programs at once, which wait for each other at M codes with P. What each does depends on where the other one is, and macroglot converts programs that run alone. The message names the block that shows the second path; nothing else is said of the program.
+
+Convert what one path does alone, as a program of its own, without the blocks that wait. If the code means something else on this machine, say so in the machine profile: [[site]]."
         }
     };
 }

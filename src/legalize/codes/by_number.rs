@@ -60,7 +60,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let by_scheme = if known.number_alike { Code::Conditional } else { Code::NoEquivalent };
         let (code, what) = match finding {
             Finding::Other(code) => {
-                (Code::NoEquivalent, format!("{code} may mean something else on the target"))
+                let note = note(code, context.source);
+                (Code::NoEquivalent, format!("{code}{note} may mean something else on the target"))
             }
             Finding::Read(code) => {
                 let what = format!(
@@ -169,6 +170,13 @@ pub(in crate::legalize) fn numbers<'p>(
     Some(numbers)
 }
 
+/// What the table says that a code of the source is.
+fn note(code: &str, source: &Control) -> String {
+    let row = source.dialect().codes.iter().find(|row| row.code == code);
+    let note = row.and_then(|row| row.origin.note.as_deref());
+    note.map_or(String::new(), |note| format!(" ({note})"))
+}
+
 /// The codes that a modal variable may hold: those of the group that its number stands for.
 fn codes_of_group(number: f64, source: &Control) -> Option<Vec<f64>> {
     let group = Group::ALL.iter().find(|group| group.number().is_some_and(|n| f64::from(n) == number))?;
@@ -180,14 +188,21 @@ fn codes_of_group(number: f64, source: &Control) -> Option<Vec<f64>> {
 /// variable holds then is not the same on both.
 pub(in crate::legalize) fn renumbered(group: f64, source: &Control, target: &Control) -> Option<String> {
     let group = Group::ALL.iter().find(|g| g.number().is_some_and(|n| f64::from(n) == group))?;
-    let mut rows = source.dialect().codes.iter().filter(|row| row.op.group() == *group);
-    let row = rows.find(|row| {
+    let rows = source.dialect().codes.iter().filter(|row| row.op.group() == *group);
+    let rows = rows.filter(|row| {
         let there = target.code_for(row.op, &Default::default()).is_some() || row.op == Op::SelectWork;
         let same = row.head().and_then(|head| target.code(head.letter, head.number(), &[]));
         there && same.is_none_or(|same| same.op != row.op)
-    })?;
-    Some(row.code.split(' ').next()?.to_owned())
+    });
+    let mut codes: Vec<&str> = rows.filter_map(|row| row.code.split(' ').next()).collect();
+    codes.dedup();
+    let more = if codes.len() > SHOWN { " and others" } else { "" };
+    codes.truncate(SHOWN);
+    (!codes.is_empty()).then(|| format!("{}{more}", codes.join(", ")))
 }
+
+/// Codes of a group that are named.
+const SHOWN: usize = 6;
 
 /// True for a code that means the same on both controls.
 pub(in crate::legalize) fn is_same(letter: char, number: f64, source: &Control, target: &Control) -> bool {

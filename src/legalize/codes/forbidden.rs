@@ -1,7 +1,8 @@
 //! Codes that the target takes for a fault while another one is in force.
 //!
 //! A control may refuse a tool change under cutter compensation, or a cycle that is set in increments. The source's need
-//! not mind, so the program is refused here, and not at the machine. What is in force is followed through the library;
+//! not mind, so the program is refused here, and not at the machine. The same goes for words that may not stand beside a
+//! code, and for values below 0. What is in force is followed through the library;
 //! where it is not known, because callers differ or nothing says it, only the verifier's runs can find it.
 
 use crate::canon::Op;
@@ -27,6 +28,16 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 let before = state.clone();
                 state.step(stmt);
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                let value = |role| nc.word(role).map(|value| value.constant());
+                // What the source takes for a fault too was said of it.
+                let clash = context.target.clash(|op| nc.has(op), value);
+                if let Some(clash) = clash.filter(|_| !context.is_faulty(index, stmt.site.span)) {
+                    let what = context.target.clash_in_words(clash);
+                    let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
+                    let help = clash.row.help.clone();
+                    let found = if let Some(help) = help { found.with_help(help) } else { found };
+                    context.add(index, found);
+                }
                 for op in nc.ops() {
                     // A code of the same group ends the other one: what was in force until then counts.
                     let in_force = |other: Op| {

@@ -66,8 +66,8 @@ fn check(program: &Program, nc: &Nc) -> Result<(), String> {
         let end = if at == to.0 { to.1 + 1 } else { stmts.len() };
         stmts.get(begin..end).unwrap_or_default()
     };
-    if !(from.0..=to.0).flat_map(part).all(is_of_contour) {
-        return Err(format!("something other than moves stands between N{first} and N{last}"));
+    if let Some(what) = (from.0..=to.0).flat_map(part).find_map(foreign) {
+        return Err(format!("{what} stands between N{first} and N{last}: a contour has only moves"));
     }
     if is_split(program, to) {
         return Err(format!(
@@ -100,13 +100,26 @@ fn find(program: &Program, number: u32) -> Result<(usize, usize), String> {
     }
 }
 
-fn is_of_contour(stmt: &Stmt) -> bool {
-    match &stmt.kind {
-        StmtKind::Comment => true,
-        StmtKind::Nc(nc) => !nc.ops().any(|op| {
-            let mode = matches!(op.group(), Group::Distance | Group::Units | Group::Plane);
-            mode || op.is_lathe_cycle() || op.is_lathe_setup() || op.is_pass()
-        }),
-        _ => false,
-    }
+/// What a statement is that no contour may have; none for those that it may.
+fn foreign(stmt: &Stmt) -> Option<String> {
+    let what = match &stmt.kind {
+        StmtKind::Comment => return None,
+        StmtKind::Nc(nc) => {
+            let op = nc.ops().find(|op| {
+                let mode = matches!(op.group(), Group::Distance | Group::Units | Group::Plane);
+                mode || op.is_lathe_cycle() || op.is_lathe_setup() || op.is_pass()
+            })?;
+            let meaning = op.meaning().trim().trim_end_matches('.');
+            return Some(format!("a code that does not move ({op}: {meaning})"));
+        }
+        StmtKind::Assign { .. } => "an assignment",
+        StmtKind::Alarm { .. } => "an alarm",
+        StmtKind::StopMessage { .. } => "a message",
+        StmtKind::ModalCall(_) | StmtKind::ModalCallOff => "a modal call",
+        StmtKind::Output(_) | StmtKind::OpenPort | StmtKind::ClosePort | StmtKind::Print { .. } => {
+            "an output"
+        }
+        _ => "a statement that is no move",
+    };
+    Some(what.into())
 }

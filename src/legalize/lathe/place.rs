@@ -90,6 +90,10 @@ impl Place {
         match self.passes {
             Some(true) => {}
             Some(false) if !skipped && nc.ops().all(is_plain) => {
+                // The end of a line by its angle is known along one axis only.
+                if nc.word(Role::LineAngle).is_some() {
+                    self.at = At::default();
+                }
                 nc.items.iter().for_each(|item| self.word(item))
             }
             _ => self.at = At::default(),

@@ -75,5 +75,8 @@ fn is_bare(nc: &Nc) -> bool {
     nc.moves()
         && !has_centre(nc)
         && nc.word(Role::ArcRadius).is_none()
-        && !nc.ops().any(|op| elsewhere.contains(&op))
+        && !nc.ops().any(|op| {
+            // The axis words of a cycle are its own, whatever interpolation is in force.
+            elsewhere.contains(&op) || op.is_lathe_cycle() || op.is_lathe_setup() || op.takes_axes()
+        })
 }

@@ -1,9 +1,14 @@
 //! The passes of lathes, in the order they run in.
 
 use super::Pass;
-use crate::legalize::lathe::{contours, counts, cycle_words, roughing, steps};
+use crate::legalize::lathe::{
+    contours, corners, counts, cycle_words, rapid_in_force, roughing, steps, unit_agrees, x_counts,
+};
 
 pub(super) const LATHE: &[Pass] = &[
+    Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)
+        .when(|c, _| corners::concerns(c))
+        .needs(&["start", "beside-moves"]),
     Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
         .when(steps::mode_to_letters)
         .needs(&["start", "beside-moves"]),
@@ -31,9 +36,21 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(counts::counts_here)
     .needs(&["units", "lathe-cycles"]),
+    Pass::edits(
+        "rapid-in-force",
+        "moves in machine coordinates get the code of the rapid that they need there",
+        rapid_in_force::run,
+    )
+    .when(rapid_in_force::concerns)
+    .needs(&["home", "lathe-cycles"]),
+    Pass::reports("unit-agrees", "refuses the unit that the target is not set to", unit_agrees::run)
+        .when(unit_agrees::concerns),
     Pass::reports("roughing", "checks that the roughing of contours ends alike", roughing::run)
         .when(roughing::concerns),
     Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)
         .when(|c, _| contours::concerns(c))
         .needs(&["lathe-cycles", "beside-moves", "pauses"]),
+    Pass::edits("x-counts", "X is a radius, where the target is set to radii", x_counts::run)
+        .when(x_counts::concerns)
+        .needs(&["lathe-counts", "corners"]),
 ];

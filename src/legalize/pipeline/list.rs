@@ -142,7 +142,7 @@ const SOURCE: &[Pass] = &[
         facts::of_source,
     )
     .when(|c, _| c.has(Feature::Computed)),
-    Pass::reports("other-kind", "refuses programs of the other kind of machine", other_kind::run)
+    Pass::edits("other-kind", "refuses programs of the other kind of machine", other_kind::run)
         .when(other_kind::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),

@@ -134,8 +134,8 @@ impl Finding {
             }
             Finding::Renumbered(code) => {
                 let what = format!(
-                    "a modal code is read, and {code} of its group has another number on {title}: make \
-                     sure that it is not in force here, and do not compare with it"
+                    "a modal code is read, and the number of {code} is another one on {title}: make sure that no such \
+                     code is in force here, and do not compare with its number"
                 );
                 context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
             }

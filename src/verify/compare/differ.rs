@@ -73,12 +73,13 @@ pub fn differ(
             (apart || hit != other_hit || about(*feed, *other_feed)).then_some("the probe move differs")
         }
         (
-            Roughing { cycle, depth, allowance, contour, feed, mode },
+            Roughing { cycle, depth, allowance, contour, rapid, feed, mode },
             Roughing {
                 cycle: other,
                 depth: other_depth,
                 allowance: others,
                 contour: legs,
+                rapid: other_rapid,
                 feed: other_feed,
                 mode: other_mode,
             },
@@ -88,6 +89,8 @@ pub fn differ(
                 Some("the roughing takes another depth, or leaves another allowance")
             } else if contours_differ(contour, legs, &mut beyond) {
                 Some("the contour that is roughed differs")
+            } else if rapid != other_rapid {
+                Some("the passes go in otherwise: rapidly, or at the feed")
             } else {
                 (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
             }

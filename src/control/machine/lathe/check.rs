@@ -30,6 +30,10 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
     {
         return Err(Stop::unnamed(format!("the emulated lathe does not run {code}")));
     }
+    let other = |inch: bool| command.has(if inch { Op::Metric } else { Op::Inch });
+    if machine.rules.turning.inch_set.is_some_and(other) {
+        return Err(Stop::unnamed("a unit that the control is not set to"));
+    }
     letters(machine, command)?;
     tool_word(command)?;
     arcs(machine, command, trace)

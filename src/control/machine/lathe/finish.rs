@@ -54,7 +54,14 @@ pub fn finish(
     let here = trace.at;
     for (block, pieces) in contour.blocks.iter().zip(&profile.blocks) {
         let mut command = block.command.clone();
-        command.words.retain(|(role, _)| !matches!(role, Role::CornerRadius | Role::CornerChamfer));
+        use Role::{ChamferNext, ChamferX, ChamferZ, CornerChamfer, CornerRadius, LineAngle, RoundNext};
+        let corner = |role: Role| {
+            matches!(
+                role,
+                CornerRadius | CornerChamfer | ChamferX | ChamferZ | ChamferNext | RoundNext | LineAngle
+            )
+        };
+        command.words.retain(|(role, _)| !corner(*role));
         let moves = profile.pieces.get(pieces.clone()).filter(|pieces| !pieces.is_empty());
         machine.lathe.way = moves.map(<[_]>::to_vec);
         trace.at = block.at;

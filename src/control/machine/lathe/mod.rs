@@ -6,6 +6,7 @@
 mod along;
 pub(super) mod check;
 pub(super) mod contour;
+pub(super) mod corner;
 mod finish;
 pub(super) mod groove;
 mod levels;
@@ -90,6 +91,8 @@ pub(super) struct Lathe {
     pub thread: Form,
     /// What the block goes along in place of its own words.
     pub way: Option<Vec<shape::Piece>>,
+    /// Where the next block must go, after a corner that says so.
+    pub turn: Option<corner::Turn>,
     /// True after a cycle, until a code of motion stands in a block.
     pub after_cycle: bool,
 }

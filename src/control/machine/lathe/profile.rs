@@ -3,7 +3,7 @@
 use super::contour::{Contour, Contoured};
 use super::shape::Piece;
 use super::way::Point;
-use super::{EXACT, alarm};
+use super::{EXACT, alarm, corner};
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::control::machine::arc::{self, Flat};
 use crate::control::machine::{Command, Machine};
@@ -30,6 +30,8 @@ struct Move {
     block: usize,
     /// A corner after it: true for a chamfer, and its size.
     corner: Option<(bool, f64)>,
+    /// The way that the next move must go along the other axis, where the corner has a sign.
+    turn: Option<(Option<usize>, f64)>,
 }
 
 impl Profile {
@@ -92,6 +94,10 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         ) || matches!(role, Role::CornerRadius | Role::CornerChamfer | Role::DwellS | Role::DwellMs)
             || matches!(
                 role,
+                Role::ChamferX | Role::ChamferZ | Role::ChamferNext | Role::RoundNext | Role::LineAngle
+            )
+            || matches!(
+                role,
                 Role::Feed | Role::Speed | Role::Turret | Role::Act | Role::Output | Role::Builder
             )
             || role.is_act_word()
@@ -101,6 +107,12 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         None => Ok(()),
     }
 }
+
+/// A corner: true for a chamfer, and its size.
+type Cut = Option<(bool, f64)>;
+
+/// The axis that the next move must go along, where it is named, and the way.
+type Way = Option<(Option<usize>, f64)>;
 
 /// What is in force from block to block.
 struct Reader<'m> {
@@ -123,7 +135,7 @@ impl Reader<'_> {
 
     fn block(&mut self, block: usize, command: &Command, trace: &mut Trace) -> Result<Option<Move>, Stop> {
         self.motion = command.of(Group::Motion).unwrap_or(self.motion);
-        let corner = self.corner(command)?;
+        let (corner, turn) = self.corner(command)?;
         // The axis words of a wait are its time.
         let arcs = matches!(self.motion, Op::ArcCw | Op::ArcCcw);
         let goes = command.has_axes() || (arcs && arc::has_centre(command));
@@ -133,14 +145,24 @@ impl Reader<'_> {
                 None => Ok(None),
             };
         }
-        let (from, to) = (self.at, self.target(command));
+        let (from, mut to) = (self.at, self.target(command));
+        if let Some(angle) = command.word(Role::LineAngle) {
+            if self.motion != Op::Linear {
+                return Err(Stop::unnamed("an angle in a block that is no straight feed move"));
+            }
+            let ways = [2.0 * (to[0] - from[0]), to[1] - from[1]];
+            match corner::end(command, angle, ways)? {
+                (Role::StepX, way) => to[0] += way / 2.0,
+                (_, way) => to[1] += way,
+            }
+        }
         self.at = to;
         let arc = if arcs { Some(self.arc(command, from, to, trace)?) } else { None };
         if !arcs && arc::has_centre(command) {
             return Err(Stop::unnamed("a corner without a comma in a contour"));
         }
         let piece = Piece { from, to, arc, rapid: self.motion == Op::Rapid };
-        Ok(Some(Move { piece, block, corner }))
+        Ok(Some(Move { piece, block, corner, turn }))
     }
 
     fn target(&self, command: &Command) -> Point {
@@ -180,12 +202,16 @@ impl Reader<'_> {
         Ok(([x, z], flat.sweep((z, x)).to_radians()))
     }
 
-    fn corner(&self, command: &Command) -> Result<Option<(bool, f64)>, Stop> {
+    fn corner(&self, command: &Command) -> Result<(Cut, Way), Stop> {
         let unit = self.machine.unit();
         let word = |role, chamfer| command.word(role).map(|size| (chamfer, size * unit));
-        match (word(Role::CornerRadius, false), word(Role::CornerChamfer, true)) {
-            (Some(_), Some(_)) => Err(Stop::unnamed("two corners in one block of a contour")),
-            (round, chamfer) => Ok(round.or(chamfer)),
+        let signed = corner::words(command);
+        match (word(Role::CornerRadius, false), word(Role::CornerChamfer, true), signed.as_slice()) {
+            (None, None, [(chamfer, axis, value)]) => {
+                Ok((Some((*chamfer, value.abs() * unit)), Some((*axis, value.signum()))))
+            }
+            (round, chamfer, []) if round.is_none() || chamfer.is_none() => Ok((round.or(chamfer), None)),
+            _ => Err(Stop::unnamed("two corners in one block of a contour")),
         }
     }
 }
@@ -201,6 +227,9 @@ fn cornered(mut moves: Vec<Move>, blocks: usize) -> Result<(Vec<Piece>, Vec<Rang
             (None, _) => None,
             (Some(_), None) => return Err(alarm("PS0069", "the contour ends in a corner")),
             (Some((chamfer, size)), Some(next)) => {
+                if !goes_on(&here.piece, &next.piece, here.turn) {
+                    return Err(alarm("PS0051", "the block after a corner goes another way"));
+                }
                 Some(cut(&mut here.piece, &mut next.piece, chamfer, size)?)
             }
         };
@@ -211,6 +240,17 @@ fn cornered(mut moves: Vec<Move>, blocks: usize) -> Result<(Vec<Piece>, Vec<Rang
         }
     }
     Ok((pieces, of_block))
+}
+
+/// True where a corner without a sign is, or one after a move along one axis and before one along the other, its sign's way.
+fn goes_on(here: &Piece, next: &Piece, turn: Way) -> bool {
+    let Some((named, sign)) = turn else { return true };
+    let way = |piece: &Piece| [piece.to[0] - piece.from[0], piece.to[1] - piece.from[1]];
+    let (one, two) = (way(here), way(next));
+    let along = if one[0].abs() > EXACT { 0 } else { 1 };
+    let axis = 1 - along;
+    let named = named.is_none_or(|named| named == 2 * axis);
+    named && one[axis].abs() <= EXACT && two[along].abs() <= EXACT && two[axis] * sign > EXACT
 }
 
 /// Shortens two lines, and gives what joins them.

@@ -80,6 +80,7 @@ fn tell(
         depth,
         allowance: [2.0 * left.finish[0], left.finish[1]],
         contour: legs.collect(),
+        rapid: profile.rapid,
         feed: machine.feed,
         mode: machine.feed_mode,
     });

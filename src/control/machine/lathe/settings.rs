@@ -1,8 +1,8 @@
 //! The settings of a lathe, read once.
 
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::control::machine::INCH;
-use crate::dialect::{Axis, Control, Units};
+use crate::dialect::{Axis, Control, Question, Setting, Units};
 use std::collections::BTreeMap;
 
 /// The settings; lengths in millimetres.
@@ -12,6 +12,12 @@ pub struct Turning {
     pub two_blocks: bool,
     /// True where the feed counts a turn when power comes on; none if no source says it.
     pub feeds_by_turn: Option<bool>,
+    /// True where a move in machine coordinates is a rapid under any interpolation (Z4).
+    pub machine_rapid: bool,
+    /// The unit that a code must agree with (Z10), where the profile says it: true for inches.
+    pub inch_set: Option<bool>,
+    /// True where X is written as a radius (C1).
+    pub radii: bool,
     /// True where only a word says that a contour has valleys (R6).
     pub valleys_by_word: bool,
     /// How far the end of an arc may lie off its circle (C8).
@@ -41,19 +47,38 @@ impl Turning {
         let unit = if control.units() == Some(Units::Inch) { INCH } else { 1.0 };
         let stated = |name: &str| control.setting(name).and_then(|value| value.parse::<f64>().ok());
         let number = |name: &str| others.get(name).copied().or_else(|| stated(name));
-        let length = |names: [&str; 2]| names.into_iter().find_map(number).map(|value| value * unit);
+        let told = |name: &str| control.told(name).and_then(|(row, _)| number(&row.name));
+        // The setting that cycles take a word from: always, or where no block says it.
+        let given = |role: Role, cycles: &[Op]| {
+            let gives = |row: &&Setting| row.gives == Some(role) || row.otherwise == Some(role);
+            let rows = control.dialect().settings.iter().filter(gives);
+            let mut rows = rows.filter(|row| row.cycles.iter().any(|op| cycles.contains(op)));
+            rows.find_map(|row| number(&row.name))
+        };
+        let length = |role: Role, cycles: &[Op]| given(role, cycles).map(|value| value * unit);
+        let (rough, pecks) = ([Op::RoughTurning, Op::RoughFacing], [Op::Groove, Op::FaceGroove]);
+        let answer = |question| control.behaviour(question).map(|row| row.value.as_str());
         Self {
             two_blocks: control.code_for(Op::ThreadingSetup, &Default::default()).is_some(),
-            feeds_by_turn: control.setting("setting.lathe_feed").map(|value| value == "turn"),
-            valleys_by_word: control.setting("setting.33") == Some("yasnac"),
-            arc_limit: length(["parameter.3410", "setting.arc_limit"]),
-            depth: length(["parameter.5132", "setting.72"]),
-            retract: length(["parameter.5133", "setting.73"]),
-            peck_retract: length(["parameter.5139", "setting.22"]),
-            thread_least: length(["parameter.5140", "setting.99"]),
-            thread_allowance: length(["parameter.5141", "setting.86"]),
-            run_out: number("setting.95"),
-            run_out_angle: number("setting.96"),
+            feeds_by_turn: control
+                .told("lathe.feed")
+                .and_then(|(_, value)| value)
+                .map(|value| value == "turn"),
+            machine_rapid: answer(Question::MachineMoveRapid) != Some("false"),
+            inch_set: control
+                .units()
+                .filter(|_| answer(Question::UnitsAgree) == Some("true"))
+                .map(|units| units == Units::Inch),
+            radii: answer(Question::XCounts) == Some("radius"),
+            valleys_by_word: answer(Question::RoughingValleys) == Some("word"),
+            arc_limit: told("arc.limit").map(|value| value * unit),
+            depth: length(Role::CutDepth, &rough),
+            retract: length(Role::CutRetract, &rough),
+            peck_retract: length(Role::CutRetract, &pecks),
+            thread_least: length(Role::ThreadLeast, &[Op::Threading]),
+            thread_allowance: length(Role::ThreadAllowance, &[Op::Threading]),
+            run_out: given(Role::ThreadRunOut, &[Op::Threading]),
+            run_out_angle: told("thread.run.out.angle"),
             has_c: control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&Axis::C)),
         }
     }

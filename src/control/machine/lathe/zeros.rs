@@ -30,7 +30,7 @@ pub fn in_machine_coordinates(
     if machine.incremental || command.words.iter().any(|(role, _)| role.is_step()) {
         return Err(Stop::unnamed("machine coordinates as increments"));
     }
-    if machine.motion != Op::Rapid && !machine.rules.turning.two_blocks {
+    if machine.motion != Op::Rapid && !machine.rules.turning.machine_rapid {
         return Err(Stop::unnamed("machine coordinates without rapid traverse in force"));
     }
     let mut to = machine.position;

@@ -52,7 +52,8 @@ fn what_the_page_does_not_describe_is_refused_by_name() {
     for (block, names) in [
         ("G0 X40. U-2.", "place and its increment"),
         ("G1 X40. C2. F.1", "axis.c"),
-        ("G1 X40. R2. F.1", "arc.radius"),
+        ("G1 X40. R2. F.1\nG0 X50.", "no straight feed move"),
+        ("G1 ,A45. F.1", "by its angle alone"),
         ("G1 X40. A45. F.1", "axis.a"),
         ("G36 X40.", "G36"),
         ("G12.1", "G12.1"),
@@ -158,7 +159,7 @@ fn what_has_no_place_in_a_contour_stops_the_run() {
         ("G54\n", "PS0066", "wcs.select"),
         ("#1=2.\n", "", "statement"),
         ("IF[1 EQ 2] GOTO 20\n", "", "statement"),
-        ("G1 X41. K2.\n", "", "comma"),
+        ("G1 X41. K2.\n", "PS0051", "another way"),
     ] {
         let found = alarm(&run(FANUC, &roughing("", inside)));
         assert!(found.0 == number && found.1.contains(names), "{inside}: {found:?}");
@@ -225,4 +226,62 @@ fn threads_run_out_as_the_settings_say() {
     let profile = format!("{HAAS}[settings]\n95 = \"1\"\n96 = \"45\"\n86 = \"0\"\n99 = \"0\"\n");
     let text = "O1\nG97 S500 M3\nG0 X30. Z2.\nG92 X29. Z-20. F2.\nM24\nX28.\nM23\nX27.\nM30\n";
     assert_eq!(chamfers(&run(&profile, text)), [Some(2.0), Some(0.0), Some(2.0)]);
+}
+
+/// Q3: the words of corners without a comma, by parameter 3405.4.
+#[test]
+fn corners_without_a_comma() {
+    let letters = format!("{FANUC}[parameters]\n\"3405.4\" = 1\n");
+    let corners = |profile: &str, blocks: &str| {
+        let run = run(profile, &format!("O1\nG0 X20. Z2.\n{blocks}\nM30\n"));
+        assert!(!matches!(run.end, End::Alarm { .. }), "{blocks}: {:?}", run.end);
+        let found = run.events.iter().filter_map(|event| match &event.what {
+            EventKind::Corner { chamfer, size } => Some((*chamfer, *size)),
+            _ => None,
+        });
+        found.collect::<Vec<_>>()
+    };
+    assert_eq!(
+        corners(FANUC, "G1 Z-20. R3. F.2\nX40. K-1.\nZ-40. I2.\nX50."),
+        [(false, 3.0), (true, 1.0), (true, 2.0)]
+    );
+    assert_eq!(corners(&letters, "G1 Z-20. C-3. F.2\nX10. R-1.\nZ-40."), [(true, 3.0), (false, 1.0)]);
+}
+
+#[test]
+fn corners_that_are_alarms() {
+    let number = |blocks: &str| alarm(&run(FANUC, &format!("O1\nG0 X20. Z2.\n{blocks}\nM30\n"))).0;
+    for (blocks, wanted) in [
+        ("G1 Z-20. R-3. F.2\nX40.", "PS0051"),
+        ("G1 Z-20. R3. F.2\nX40. Z-30.", "PS0051"),
+        ("G1 Z-20. R3. F.2\nG2 X40. Z-30. R10.", "PS0052"),
+        ("G1 Z-20. R3. I1. F.2\nX40.", "PS0053"),
+        ("G1 X30. Z-20. R3. F.2\nX40.", "PS0054"),
+        ("G1 Z-20. K3. F.2\nX40.", "PS0054"),
+        ("G1 Z-20. R30. F.2\nX90.", "PS0055"),
+        ("G1 Z-20. R12. F.2\nX40.", "PS0055"),
+        ("G1 X40. ,A180. F.2", "PS0057"),
+    ] {
+        assert_eq!(number(blocks), wanted, "{blocks}");
+    }
+}
+
+/// Q3: from Z, counter-clockwise, in real lengths: 10 mm of radius at 135 degrees go 10 mm toward the chuck.
+#[test]
+fn lines_by_their_angle() {
+    let ends = |blocks: &str| {
+        let all = moves(&run(FANUC, &format!("O1\nG0 X20. Z2.\n{blocks}\nM30\n")));
+        all.last().map(|end| end.map(|place| (place * 1e6).round() / 1e6)).unwrap_or_default()
+    };
+    assert_eq!(ends("G1 X40. ,A135. F.2"), [40.0, -8.0]);
+    assert_eq!(ends("G1 Z-8. ,A135. F.2"), [40.0, -8.0]);
+    assert_eq!(ends("G1 W-10. ,A225. F.2"), [0.0, -8.0]);
+}
+
+/// C1: every X counts twice, and what reads a place is not known.
+#[test]
+fn radii() {
+    let radii = format!("{FANUC}[parameters]\n\"1006.3\" = 0\n");
+    let text = "O1\nG0 X30. Z2.\nG1 U-2. F.2\nX20. Z0.\nM30\n";
+    assert_eq!(moves(&run(&radii, text)), [[60.0, 2.0], [56.0, 2.0], [40.0, 0.0]]);
 }

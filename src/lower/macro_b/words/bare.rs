@@ -29,7 +29,10 @@ impl Lowering<'_> {
 
     /// A block of words that all were noted, each with a decimal point and none twice; none for any other.
     pub fn bare_words(&self, words: &Words<'_>) -> Option<Nc> {
-        if self.known.under != self.motion || words.iter().any(|(word, _)| self.known.role(word).is_none()) {
+        if self.counts_radii()
+            || self.known.under != self.motion
+            || words.iter().any(|(word, _)| self.known.role(word).is_none())
+        {
             return None;
         }
         let mut items = Vec::with_capacity(words.len());

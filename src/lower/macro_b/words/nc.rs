@@ -234,6 +234,7 @@ impl<'a> Lowering<'a> {
             return self.findings.not_understood(span, format!("{} has no value", word.letter));
         };
         let Some((role, value)) = self.word_value(role, word.letter, value, code) else { return };
+        let Some(value) = self.as_diameter(role, value, span) else { return };
         if seen.role(role) && role != Role::Builder {
             nc.items.retain(|item| !matches!(item, NcItem::Word(other, _) if *other == role));
             let message = format!("{} is in this block twice: the later one is taken", word.letter);

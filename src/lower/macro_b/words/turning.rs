@@ -1,8 +1,9 @@
 //! What the words of a block cannot mean together on a lathe, and what they mean there only by an option of the machine.
 
 use crate::canon::{Op, Role};
-use crate::dialect::{Axis, Machine};
-use crate::ir::{Nc, NcItem, SourceInfo};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Axis, Machine, Question};
+use crate::ir::{BinOp, Expr, Nc, NcItem, SourceInfo};
 use crate::lower::macro_b::build::Lowering;
 use crate::text::Span;
 
@@ -24,17 +25,46 @@ impl Lowering<'_> {
         if nc.has(Op::MachineOnce) && Role::STEPS.iter().any(|(_, step)| has(*step)) {
             self.findings.not_understood(span, "an increment beside G53: no source says what it counts from");
         }
-        if nc.word(Role::ArcRadius).and_then(|radius| radius.constant()).is_some_and(|radius| radius < 0.0) {
-            self.findings.not_understood(
-                span,
-                "a negative R is an alarm on a lathe: an arc over 180 degrees is written with its centre, or as two arcs",
-            );
+        let control = self.control;
+        let value = |role: Role| nc.word(role).map(|value| value.constant());
+        if let Some(clash) = control.clash(|op| nc.has(op), value) {
+            let finding = Diagnostic::new(Code::NotUnderstood, span, control.clash_in_words(clash));
+            let help = clash.row.help.clone();
+            self.findings.add(match help {
+                Some(help) => finding.with_help(help),
+                None => finding,
+            });
         }
         self.check_turret(nc, span);
+        self.check_corner(nc, span);
         self.check_line(nc, span);
     }
 
-    /// A tool word of more than four digits, or where the control takes none.
+    /// True where X is written as a radius.
+    pub fn counts_radii(&self) -> bool {
+        self.control.machine() == Machine::Lathe
+            && self.control.behaviour(Question::XCounts).is_some_and(|row| row.value == "radius")
+    }
+
+    /// The value of a word, where a control that counts radii has half of it; none, and an error, where a vacant one would become
+    /// a number.
+    pub fn as_diameter(&mut self, role: Role, value: Expr, span: Span) -> Option<Expr> {
+        if !matches!(role, Role::X | Role::StepX | Role::AllowanceX) || !self.counts_radii() {
+            return Some(value);
+        }
+        match value {
+            Expr::Number(number) => Some(Expr::Number(2.0 * number)),
+            Expr::Increments(count) => Some(Expr::Increments(2.0 * count)),
+            value if value.may_be_vacant() => {
+                let what = "X of a machine that counts radii is computed from a variable that may be vacant: set the variable by a calculation";
+                self.findings.not_understood(span, what);
+                None
+            }
+            value => Some(Expr::binary(BinOp::Mul, value, Expr::Number(2.0))),
+        }
+    }
+
+    /// A tool word of more than four digits.
     fn check_turret(&mut self, nc: &Nc, span: Span) {
         let Some(tool) = nc.word(Role::Turret) else { return };
         if tool.constant().is_some_and(|tool| tool >= 10_000.0) {
@@ -42,10 +72,27 @@ impl Lowering<'_> {
                 "a T word of more than four digits: which of them are the offset depends on the machine";
             self.findings.not_understood(span, message);
         }
-        if nc.ops().any(|op| matches!(op, Op::LimitSpeed | Op::SetPosition | Op::Dwell)) {
-            let message = "T beside G50 (G92) or G4 is an alarm: give T a block of its own";
-            self.findings.not_understood(span, message);
-        }
+    }
+
+    /// A corner or an angle by a letter that is an axis of the machine, and an angle that gives no end.
+    fn check_corner(&mut self, nc: &Nc, span: Span) {
+        let listed =
+            |axis: Axis| self.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
+        let has = |role: Role| nc.word(role).is_some();
+        let (x, z) = (has(Role::X) || has(Role::StepX), has(Role::Z) || has(Role::StepZ));
+        let what = if has(Role::ChamferNext) && listed(Axis::C) {
+            "C is an axis of this machine, and no chamfer: its profile lists it"
+        } else if has(Role::LineAngle) && listed(Axis::A) {
+            "A is an axis of this machine, and no angle of a line: its profile lists it"
+        } else if has(Role::LineAngle) && !x && !z {
+            "the angle of a line without X and Z: the line ends where the next one begins, which is not worked out here. Write X and Z \
+             of its end"
+        } else if has(Role::LineAngle) && x && z {
+            "the angle of a line beside X and Z of its end: no source says which counts"
+        } else {
+            return;
+        };
+        self.findings.not_understood(span, what);
     }
 
     /// A and C in a block that cuts: the angle of a line and a chamfer, where the machine has no such axes.
@@ -62,7 +109,8 @@ impl Lowering<'_> {
         for (found, what) in [
             (
                 chamfer,
-                "C beside X or Z is a chamfer on a lathe without a C axis: if the machine has one, list its axes in the profile",
+                "C beside X or Z is a chamfer on a lathe without a C axis, where a parameter of the control says so: state it in the profile; \
+                 if the machine has a C axis, list its axes there",
             ),
             (
                 angle,

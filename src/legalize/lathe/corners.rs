@@ -1,0 +1,181 @@
+//! Corners of a lathe without a comma, whose sign says which way the next block goes.
+//!
+//! Law: a corner after a move along one axis, before one along the other, is the corner between two lines, of the size without its
+//! sign. Side conditions: the size is a number, and the next block is known to go the way that the sign says: otherwise the source
+//! stops at an alarm. Counter-example: `Z-20. R-2.` before `X50.`, which goes outward.
+//! A line by its angle stays one where the target has a word for that; else it is refused.
+
+use super::place::Place;
+use super::settings::takes;
+use super::straight::{entered_straight, goes_on_to};
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+
+/// The words, and what each is without its sign.
+const WORDS: [(Role, Role); 4] = [
+    (Role::ChamferX, Role::CornerChamfer),
+    (Role::ChamferZ, Role::CornerChamfer),
+    (Role::ChamferNext, Role::CornerChamfer),
+    (Role::RoundNext, Role::CornerRadius),
+];
+
+/// True where there are such words.
+pub fn concerns(features: &Features) -> bool {
+    features.role(Role::LineAngle) || WORDS.iter().any(|(role, _)| features.role(*role))
+}
+
+/// Takes the signs away; true where there were any.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let mut changed = false;
+    let angles = takes(context.target, Op::Linear, Role::LineAngle);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let (mut found, mut lines) = (Vec::new(), Vec::new());
+        for (at, place, known) in corners(program) {
+            let next = next_of(program, at, place);
+            let Some(stmt) = program.blocks.get(at).and_then(|block| block.stmts.get(place)) else {
+                continue;
+            };
+            let span = stmt.site.span;
+            let made = stmt.kind.nc().ok_or_else(String::new).and_then(|nc| plain(nc, next, known));
+            match made {
+                Ok(nc) => {
+                    let block = program.blocks.get_mut(at);
+                    if let Some(stmt) = block.and_then(|block| block.stmts.get_mut(place)) {
+                        stmt.kind = StmtKind::Nc(nc);
+                        changed = true;
+                    }
+                    found.push((span, Ok(())));
+                }
+                Err(what) => found.push((span, Err(what))),
+            }
+        }
+        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            if nc.word(Role::LineAngle).is_some() {
+                lines.push(stmt.site.span);
+                // The letter means that beside the code alone.
+                if !nc.has(Op::Linear) {
+                    nc.items.insert(0, NcItem::Op(Op::Linear));
+                    changed = true;
+                }
+            }
+        }
+        for span in lines {
+            context.rests_on_source(index, span, Question::LineAngle);
+            context.rests_on_target(index, span, Question::LineAngle);
+            if !angles {
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, NO_ANGLE));
+            }
+        }
+        for (span, result) in found {
+            context.rests_on_source(index, span, Question::CornerLetters);
+            if let Err(what) = result {
+                let help = "write the place of the next block, or the corner as moves";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+            }
+        }
+    }
+    changed
+}
+
+const NO_ANGLE: &str = "the target has no word for the angle of a line: write X and Z of its end";
+
+/// The statements with such a word, and where the tool stands before each.
+fn corners(program: &Program) -> Vec<(usize, usize, Place)> {
+    let straight = entered_straight(program);
+    let (mut all, mut place) = (Vec::new(), Place::default());
+    for (at, (block, straight)) in program.blocks.iter().zip(straight).enumerate() {
+        if !straight {
+            place = Place::default();
+        }
+        for (count, stmt) in block.stmts.iter().enumerate() {
+            place.enter(stmt);
+            if stmt.kind.nc().is_some_and(|nc| WORDS.iter().any(|(role, _)| nc.word(*role).is_some())) {
+                all.push((at, count, place));
+            }
+            place.step(stmt);
+        }
+    }
+    all
+}
+
+/// The block after one, where the run goes straight on to it.
+fn next_of(program: &Program, at: usize, place: usize) -> Option<&Nc> {
+    let here = program.blocks.get(at)?;
+    let goes_on = goes_on_to(&here.term.kind, at + 1);
+    let there = program.blocks.get(at + 1).filter(|_| goes_on).map_or(&[][..], |block| &block.stmts);
+    let mut rest = here.stmts.get(place + 1..)?.iter().chain(there);
+    rest.find(|stmt: &&Stmt| !matches!(stmt.kind, StmtKind::Comment))?.kind.nc()
+}
+
+/// The block with the corner without its sign.
+fn plain(nc: &Nc, next: Option<&Nc>, place: Place) -> Result<Nc, String> {
+    let mut words = WORDS.iter().filter_map(|(role, plain)| Some((*role, *plain, nc.word(*role)?)));
+    let (Some((role, plain, value)), None) = (words.next(), words.next()) else {
+        return Err("two corners in one block".into());
+    };
+    let Some(size) = value.constant().filter(|size| *size != 0.0) else {
+        return Err(
+            "the size of this corner is computed, or 0: its sign says which way the next block must go"
+                .into(),
+        );
+    };
+    let axes = |nc: &Nc| {
+        [[Role::X, Role::StepX], [Role::Z, Role::StepZ]]
+            .map(|roles| roles.into_iter().find(|role| nc.word(*role).is_some()))
+    };
+    let along_x = match axes(nc) {
+        [Some(_), None] => true,
+        [None, Some(_)] => false,
+        _ => return Err("a corner without a comma stands after a move along X alone or Z alone, and this one goes along both, or neither".into()),
+    };
+    let named = match role {
+        Role::ChamferX => Some(false),
+        Role::ChamferZ => Some(true),
+        _ => None,
+    };
+    if named.is_some_and(|along| along != along_x) {
+        return Err("this chamfer names the axis of its own block, not that of the next one: the source stops at an alarm".into());
+    }
+    let other =
+        |role: &Role| role.is_axis() && !matches!(role, Role::X | Role::StepX | Role::Z | Role::StepZ);
+    let straight = |nc: &Nc| {
+        let own = nc.ops().filter(|op| op.group() == Group::Motion).all(|op| op == Op::Linear);
+        own && !nc.ops().any(|op| op.takes_axes())
+            && !nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if other(role)))
+    };
+    let next = next.filter(|next| straight(next)).map(|next| (next, axes(next)));
+    let (next, role) = match (next, along_x) {
+        (Some((next, [None, Some(z)])), true) => (next, z),
+        (Some((next, [Some(x), None])), false) => (next, x),
+        _ => {
+            return Err("the block after this corner must go straight along the other axis alone: otherwise the source stops at an alarm".into());
+        }
+    };
+    let before = if along_x { place.z() } else { place.x() };
+    let value = next.word(role).and_then(Expr::constant);
+    let way = if role.is_step() { value } else { value.zip(before).map(|(to, from)| to - from) };
+    match way {
+        Some(way) if way * size > 0.0 => {
+            let item = |item: &NcItem| match item {
+                NcItem::Word(found, _) if WORDS.iter().any(|(role, _)| role == found) => {
+                    NcItem::Word(plain, Expr::Number(size.abs()))
+                }
+                other => other.clone(),
+            };
+            Ok(Nc { items: nc.items.iter().map(item).collect() })
+        }
+        Some(_) => Err(
+            "the sign of this corner says another way than the next block goes: the source stops at an alarm"
+                .into(),
+        ),
+        None => Err(
+            "which way the next block goes is not known here, and the sign of this corner must be that way"
+                .into(),
+        ),
+    }
+}

@@ -1,0 +1,87 @@
+//! Moves in machine coordinates on a lathe that goes there only by the rapid traverse in force.
+//!
+//! Law: such a move is a rapid on the source whatever interpolation is in force, and leaves that alone. So where another one is in
+//! force, or it is not known which, the target's block has the code of the rapid too, and the interpolation that was in force is
+//! said again, unless the next block that moves says its own. Side condition: it is known, and is the straight feed. Counter-example: the
+//! move between two blocks of a modal pass.
+
+use crate::canon::{Group, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Machine, Question};
+use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+
+/// True where the target is such a lathe, and the library moves so.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let rapid = context.target.behaviour(Question::MachineMoveRapid);
+    context.target.machine() == Machine::Lathe
+        && features.op(Op::MachineOnce)
+        && rapid.is_some_and(|row| row.value == "false")
+}
+
+/// Writes the code of the rapid; true where it was missing.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let facts = context.modal_facts(module);
+    let (mut changed, mut found) = (false, Vec::new());
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            if !block.stmts.iter().any(|stmt| stmt.kind.has_op(Op::MachineOnce)) {
+                continue;
+            }
+            let mut state = facts.at(index, BlockId(at as u32));
+            let ends = matches!(block.term.kind, TermKind::End { .. });
+            let old = std::mem::take(&mut block.stmts);
+            for (place, stmt) in old.iter().enumerate() {
+                let before = state.op(Group::Motion);
+                state.step(stmt);
+                let mut stmt = stmt.clone();
+                let own = |nc: &Nc| nc.ops().any(|op| op.group() == Group::Motion);
+                let lacks = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::MachineOnce) && !own(nc));
+                if !lacks || before == Some(Op::Rapid) {
+                    block.stmts.push(stmt);
+                    continue;
+                }
+                changed = true;
+                let span = stmt.site.span;
+                let site = SourceInfo { span, skip: stmt.site.skip, ..SourceInfo::default() };
+                if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    let once = nc.items.iter().position(|item| *item == NcItem::Op(Op::MachineOnce));
+                    nc.items.insert(once.map_or(0, |once| once + 1), NcItem::Op(Op::Rapid));
+                }
+                block.stmts.push(stmt);
+                match before {
+                    _ if old.get(place + 1..).is_some_and(|rest| says_its_own(rest, false)) => {}
+                    Some(Op::Linear) => {
+                        let again = StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Linear)] });
+                        block.stmts.push(Stmt { kind: again, site });
+                    }
+                    // What the program may be found in is what it leaves.
+                    _ if old.get(place + 1..).is_some_and(|rest| says_its_own(rest, ends)) => {}
+                    _ => found.push((index, span)),
+                }
+            }
+        }
+    }
+    for (index, span) in found {
+        let what = "a move in machine coordinates, for which the target must be in G0: the code to go back to is not known, or is no straight \
+                    move";
+        let help =
+            "write G0 in a block before the move, and the code that goes on after it in the block after it";
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+    }
+    changed
+}
+
+/// True where the next block that names an axis has a code of its own for how it moves, or the program ends before one.
+fn says_its_own(rest: &[Stmt], ends: bool) -> bool {
+    for nc in rest.iter().filter_map(|stmt| stmt.kind.nc()) {
+        if nc.ops().any(|op| op.group() == Group::Motion) {
+            return true;
+        }
+        if nc.names_axis() {
+            return false;
+        }
+    }
+    ends
+}
