@@ -26,6 +26,12 @@ struct Expectation {
     /// True where the list says what the spindle does and where the program waits for the operator.
     #[serde(default)]
     turns: bool,
+    /// True where places have the C axis too, in degrees, after z.
+    #[serde(default)]
+    c_axis: bool,
+    /// True where the list says where the corners are that a move ends in.
+    #[serde(default)]
+    corners: bool,
     profile: String,
     scenario: String,
     moves: String,
@@ -75,16 +81,21 @@ fn expected(line: &str) -> Move {
 }
 
 /// The move of a line of a trace; none for other events, and for a way of no length.
-fn traced(event: &Value, turns: bool) -> Option<Move> {
+fn traced(event: &Value, expectation: &Expectation) -> Option<Move> {
+    let turns = expectation.turns;
     let number = |key: &str| event[key].as_f64().unwrap_or(f64::NAN);
-    let place = |key: &str| ["x", "y", "z"].map(|axis| event[key][axis].as_f64().unwrap_or(f64::NAN));
+    let axes: &[&str] = if expectation.c_axis { &["x", "y", "z", "c"] } else { &["x", "y", "z"] };
+    let place = |key: &str| -> Vec<f64> {
+        axes.iter().map(|axis| event[key][axis].as_f64().unwrap_or(f64::NAN)).collect()
+    };
     let kind = event["event"].as_str()?;
     let mut numbers = match kind {
-        "rapid" | "feed" | "arc" | "thread" | "probe" => place("to").to_vec(),
-        "hole" => place("at").to_vec(),
+        "rapid" | "feed" | "arc" | "thread" | "probe" => place("to"),
+        "hole" => place("at"),
         "dwell" => vec![number("seconds")],
         "spindle" if turns => vec![number("speed")],
         "stop" if turns => Vec::new(),
+        "corner" if expectation.corners => vec![number("size")],
         _ => return None,
     };
     let still = place("from").iter().zip(place("to")).all(|(a, b)| (a - b).abs() <= NEAR);
@@ -103,7 +114,10 @@ fn traced(event: &Value, turns: bool) -> Option<Move> {
         "hole" => numbers.push(number("bottom")),
         _ => {}
     }
-    let mode = event["mode"].as_str().or(event["direction"].as_str()).unwrap_or_default().to_owned();
+    let shape = event["chamfer"].as_bool().filter(|_| kind == "corner");
+    let shape = shape.map(|chamfer| if chamfer { "chamfer" } else { "round" });
+    let mode =
+        event["mode"].as_str().or(event["direction"].as_str()).or(shape).unwrap_or_default().to_owned();
     Some(Move { kind: kind.to_owned(), numbers, mode })
 }
 
@@ -129,7 +143,7 @@ fn moves(expectation: &Expectation) -> (Vec<Move>, String) {
     let events: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let end = events.last().and_then(|result| result["end"].as_str()).unwrap_or_default().to_owned();
     assert!(!end.is_empty(), "{program}: {}", String::from_utf8_lossy(&output.stderr));
-    (events.iter().filter_map(|event| traced(event, expectation.turns)).collect(), end)
+    (events.iter().filter_map(|event| traced(event, expectation)).collect(), end)
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -154,7 +168,7 @@ fn difference_by(found: &[Move], wanted: &[Move], alike: impl Fn(&Move, &Move) -
 }
 
 /// The lists of lathes whose cycles the emulated control refuses: those moves that it makes before are theirs.
-const REFUSED: [&str; 1] = ["lathe-drill.toml"];
+const REFUSED: &[&str] = &["lathe-drill.toml"];
 
 /// All expectations of mills and their files.
 fn expectations() -> Vec<(PathBuf, Expectation)> {
@@ -199,9 +213,20 @@ fn programs_move_as_their_geometry_says() {
 /// Lathes: single passes, threads, grooves and contours, against lists worked out from the parts.
 #[test]
 fn lathes_move_as_their_parts_say() {
+    lathes_move_as("tests/motions/expected-lathe", 50);
+}
+
+/// Lathes with driven tools and a C axis, corners and angles of lines.
+#[test]
+fn live_tools_move_as_their_parts_say() {
+    lathes_move_as("tests/motions/expected-live", 24);
+}
+
+/// Holds the lists of a folder, at least so many, against the emulated lathes.
+fn lathes_move_as(folder: &str, least: usize) {
     let mut wrong = Vec::new();
     let mut counts: BTreeMap<String, (usize, usize)> = BTreeMap::new();
-    for (path, expectation) in expectations_of("tests/motions/expected-lathe") {
+    for (path, expectation) in expectations_of(folder) {
         let (mut wanted, mut ends) = (expectation.list(), expectation.ends.as_str());
         let (found, end) = moves(&expectation);
         if REFUSED.iter().any(|name| path.ends_with(name)) {
@@ -220,7 +245,7 @@ fn lathes_move_as_their_parts_say() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     eprintln!("programs and moves of lathes: {counts:?}");
     assert_eq!(counts.len(), 2);
-    assert!(counts.values().map(|(programs, _)| programs).sum::<usize>() >= 50, "{counts:?}");
+    assert!(counts.values().map(|(programs, _)| programs).sum::<usize>() >= least, "{counts:?}");
 }
 
 /// A list that is wrong in one number, lacks a move or has one too many is found out.

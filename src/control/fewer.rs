@@ -43,9 +43,7 @@ impl FewerDigits {
         if (self.notes && self.lacked.get()) || self.is_short(value) || !value.is_finite() {
             return value;
         }
-        // Through decimal text, so that every value kept is the nearest double to its digits.
-        let places = usize::try_from(self.digits - 1).unwrap_or(0);
-        let nearest = format!("{value:.places$e}").parse().unwrap_or(value);
+        let nearest = self.quickly(value).unwrap_or_else(|| self.by_text(value));
         if nearest == value {
             return value;
         }
@@ -56,6 +54,26 @@ impl FewerDigits {
         let Some(seed) = self.seed else { return nearest };
         let off = 10f64.powi(-self.digits);
         if self.side(seed) { value + value * off } else { value - value * off }
+    }
+
+    /// Through decimal text, so that every value kept is the nearest double to its digits.
+    fn by_text(&self, value: f64) -> f64 {
+        let places = usize::try_from(self.digits - 1).unwrap_or(0);
+        format!("{value:.places$e}").parse().unwrap_or(value)
+    }
+
+    /// The same by a product and a quotient, where these are known to give it: a whole number of so few digits over a power of
+    /// ten that a double holds is rounded once. None near a tie, which the product may have moved, and for other powers.
+    fn quickly(&self, value: f64) -> Option<f64> {
+        let power = self.digits - 1 - value.abs().log10().floor() as i32;
+        if !(0..=22).contains(&power) || self.digits > FEWER_DIGITS as i32 {
+            return None;
+        }
+        let (scale, most) = (10f64.powi(power), 10f64.powi(self.digits));
+        let digits = value * scale;
+        let is_tie = ((digits - digits.trunc()).abs() - 0.5).abs() < 0.01;
+        let has_all = (most / 10.0..most).contains(&digits.abs());
+        (has_all && !is_tie).then(|| digits.round() / scale)
     }
 
     /// True for the nearest double to a number of few digits, up to six of them after the point: an exact quotient is
@@ -95,6 +113,32 @@ mod tests {
             let digits = FewerDigits::of(&Scenario::default(), None);
             assert_eq!((digits.keep(long), digits.lacked()), (long, true));
         }
+    }
+
+    /// Drawn over many magnitudes, and near the powers of ten, where a digit more or less is wanted.
+    #[test]
+    fn the_quick_way_gives_what_the_text_gives() {
+        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut quick = 0;
+        for at in 0..200_000_i32 {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let part = (bits >> 11) as f64 / (1_u64 << 53) as f64;
+            let power = 10f64.powi(at % 30 - 12);
+            let near_one = 1.0 + (part - 0.5) * 10f64.powi(-(at % 17));
+            let value = [part * power, -part * power, near_one * power][at as usize % 3];
+            for digits in [1, 4, 8, FEWER_DIGITS] {
+                let fewer = FewerDigits::new(digits);
+                if let Some(found) = fewer.quickly(value) {
+                    quick += 1;
+                    assert_eq!(
+                        found.to_bits(),
+                        fewer.by_text(value).to_bits(),
+                        "{value:e} to {digits} digits"
+                    );
+                }
+            }
+        }
+        assert!(quick > 400_000, "{quick}");
     }
 
     #[test]

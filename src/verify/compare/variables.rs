@@ -40,7 +40,9 @@ pub(super) fn all_variables<'r>(
         return Vec::new();
     }
     let mut differences = Vec::new();
-    let mut all: BTreeSet<&str> = names.variables.keys().map(String::as_str).collect();
+    // What neither run left is the same: a library has many more variables than a program.
+    let written = names.holding(target.1.variables.keys(), target.0.control);
+    let mut all: BTreeSet<&str> = written.collect();
     all.extend(source.1.variables.keys().chain(target.1.variables.keys()).map(String::as_str));
     for name in all {
         let class = class_of(source.0.control, name).filter(|class| class.class != "local");

@@ -22,10 +22,8 @@ impl Verifier<'_, '_> {
         if !self.called || !lacks_locals(job) || !self.takes_arguments() {
             return false;
         }
-        let links = job.source.links();
-        let calls = |caller: &ProgramRef| links.called_from(*caller, |_| true).contains(&self.program);
-        let roots = links.programs().iter().filter(|at| **at != self.program && is_root(job, at));
-        let callers: Vec<ProgramRef> = roots.filter(|at| calls(at)).take(CALLERS + 1).copied().collect();
+        let above = job.source.links().calling(self.program).into_iter();
+        let callers: Vec<ProgramRef> = above.filter(|at| is_root(job, at)).take(CALLERS + 1).collect();
         let program = [self.program];
         let mut coverage = Coverage::new(job.source, &program, false);
         let mut target_coverage = Coverage::new(job.target, &of_target(job, self.program), true);
@@ -59,7 +57,7 @@ impl Verifier<'_, '_> {
     }
 
     /// True if its text reads what only a call gives.
-    fn takes_arguments(&self) -> bool {
+    pub(super) fn takes_arguments(&self) -> bool {
         let source = self.job.source;
         let found = inputs(source, self.program, source);
         let is_local =

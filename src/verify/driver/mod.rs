@@ -1,6 +1,7 @@
 //! The verification of a program from its first run to its certificate.
 
 mod as_called;
+mod by_registers;
 mod edited;
 mod elsewhere;
 mod entries;

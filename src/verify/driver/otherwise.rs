@@ -79,7 +79,7 @@ impl Verifier<'_, '_> {
 }
 
 /// The names of the variables that outlive a program and may hold what another one left.
-fn commons(side: &Side<'_>) -> Vec<(String, u32)> {
+pub(super) fn commons(side: &Side<'_>) -> Vec<(String, u32)> {
     let classes = side.control.classes().iter();
     let shared = classes.filter(|row| matches!(row.class.as_str(), "common" | "retained"));
     let all = shared.flat_map(|row| (row.first..=row.last).map(move |number| (&row.name, number)));
@@ -87,6 +87,6 @@ fn commons(side: &Side<'_>) -> Vec<(String, u32)> {
 }
 
 /// These values in these variables, but for those that hold something already.
-fn filled(values: &[(String, f64)], held: &BTreeMap<String, f64>) -> BTreeMap<String, f64> {
+pub(super) fn filled(values: &[(String, f64)], held: &BTreeMap<String, f64>) -> BTreeMap<String, f64> {
     values.iter().cloned().chain(held.iter().map(|(name, value)| (name.clone(), *value))).collect()
 }

@@ -34,7 +34,7 @@ impl Verifier<'_, '_> {
             (None, true) => Outcome::Same,
         };
         let mut run_alone = false;
-        if let Some(witness) = &self.witness {
+        if let Some(witness) = self.witness.clone() {
             let through = through(self.job, self.program, &self.shown, self.tolerance);
             run_alone = through.is_alone(&self.given);
             let locals = lacks_locals(self.job) && through.does_the_same();
@@ -44,7 +44,8 @@ impl Verifier<'_, '_> {
             let by_callers =
                 "what its callers give it stands in registers there, and no run of them comes to its end";
             let why = locals.then(|| by_registers.into()).or(stopped.then(|| by_callers.into()));
-            if let Some(excuse) = through.excuses().or(why) {
+            let unset = || there.and_then(|there| self.by_registers(&witness, &through, there));
+            if let Some(excuse) = through.excuses().or(why).or_else(unset) {
                 let text = format!("run by itself it differs ({}), but {excuse}", witness.what);
                 self.because(Why::NotByItself, &text);
                 outcome = Outcome::Undecided;

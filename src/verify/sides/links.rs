@@ -5,8 +5,8 @@
 use super::program_texts::ProgramTexts;
 use crate::canon::Op;
 use crate::control::{ProgramRef, Run, trace};
-use crate::syntax::{Block, ExprKind, Item, ItemKind, ProgramName, Word};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use crate::syntax::{ExprKind, Item, ItemKind, ProgramName, Word};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Calls nest no deeper than this on an emulated control, so what lies deeper no run comes to.
 const DEEPEST: usize = 100;
@@ -24,8 +24,8 @@ pub struct Links {
     ran: Vec<HashMap<String, Vec<ProgramRef>>>,
     /// What the text of each calls, each program once, in the order of the text.
     callees: HashMap<ProgramRef, Vec<ProgramRef>>,
-    /// Those that another one calls.
-    called: HashSet<ProgramRef>,
+    /// The other programs whose texts call each.
+    callers: HashMap<ProgramRef, Vec<ProgramRef>>,
     /// Those with a call of which the text does not say what it calls.
     open: HashSet<ProgramRef>,
     /// True for each of A, B and C that a program has a word of.
@@ -34,6 +34,9 @@ pub struct Links {
 
 /// The letters of the rotary axes.
 const ROTARY: [char; 3] = ['A', 'B', 'C'];
+
+/// The operations whose blocks give their words to what they call.
+const ARGUMENTS: [Op; 3] = [Op::CallMacro, Op::CallModal, Op::CallModalEach];
 
 impl Links {
     /// Reads the texts of a side.
@@ -55,15 +58,17 @@ impl Links {
         (before, now): (&ProgramTexts<'_>, &ProgramTexts<'_>),
         program: ProgramRef,
     ) -> bool {
-        rotary_in(before.text(program)) == rotary_in(now.text(program))
+        rotary_in(before, program) == rotary_in(now, program)
             && callees_of(now, program) == self.callees(program)
     }
 
     fn take_in(&mut self, side: &ProgramTexts<'_>, program: ProgramRef) {
         let callees = callees_of(side, program);
-        let moved = rotary_in(side.text(program));
+        let moved = rotary_in(side, program);
         self.rotary.iter_mut().zip(moved).for_each(|(all, here)| *all |= here);
-        self.called.extend(callees.iter().filter(|callee| **callee != program));
+        for callee in callees.iter().filter(|callee| **callee != program) {
+            self.callers.entry(*callee).or_default().push(program);
+        }
         self.callees.insert(program, callees);
         if side.text(program).iter().any(|block| calls_something(side, &block.items)) {
             self.open.insert(program);
@@ -99,7 +104,7 @@ impl Links {
 
     /// True where another program calls it: then that one has set what it takes.
     pub fn is_called(&self, program: ProgramRef) -> bool {
-        self.called.contains(&program)
+        self.callers.contains_key(&program)
     }
 
     /// False if a program calls another one neither by itself nor through what it calls.
@@ -120,19 +125,13 @@ impl Links {
 
     /// A program, then those that it calls, then those that these call, each once; `follows` says which to go on to.
     pub fn called_from(&self, program: ProgramRef, follows: impl Fn(&ProgramRef) -> bool) -> Vec<ProgramRef> {
-        let (mut all, mut seen) = (vec![program], HashSet::from([program]));
-        let mut level = 0..1;
-        for _ in 0..DEEPEST {
-            for at in level.clone() {
-                let callees = all.get(at).map_or(&[][..], |caller| self.callees(*caller));
-                all.extend(callees.iter().copied().filter(|callee| follows(callee) && seen.insert(*callee)));
-            }
-            level = level.end..all.len();
-            if level.is_empty() {
-                break;
-            }
-        }
-        all
+        follow(program, |at| self.callees(at), follows)
+    }
+
+    /// The other programs whose texts call a program, by themselves or through others, in the order of files and places.
+    pub fn calling(&self, program: ProgramRef) -> BTreeSet<ProgramRef> {
+        let all = follow(program, |at| self.callers.get(&at).map_or(&[], Vec::as_slice), |_| true);
+        all.into_iter().filter(|caller| *caller != program).collect()
     }
 
     /// The programs that a run calls so: several without a name stand in one file.
@@ -167,6 +166,27 @@ impl Links {
     }
 }
 
+/// A program, then those that it leads to, then those that these lead to, each once; `follows` says which to go on to.
+fn follow<'l>(
+    program: ProgramRef,
+    next: impl Fn(ProgramRef) -> &'l [ProgramRef],
+    follows: impl Fn(&ProgramRef) -> bool,
+) -> Vec<ProgramRef> {
+    let (mut all, mut seen) = (vec![program], HashSet::from([program]));
+    let mut level = 0..1;
+    for _ in 0..DEEPEST {
+        for at in level.clone() {
+            let leads = all.get(at).map_or(&[][..], |at| next(*at));
+            all.extend(leads.iter().copied().filter(|to| follows(to) && seen.insert(*to)));
+        }
+        level = level.end..all.len();
+        if level.is_empty() {
+            break;
+        }
+    }
+    all
+}
+
 /// What the text of a program calls, each program once.
 fn callees_of(side: &ProgramTexts<'_>, program: ProgramRef) -> Vec<ProgramRef> {
     let mut seen = HashSet::new();
@@ -177,18 +197,8 @@ fn callees_of(side: &ProgramTexts<'_>, program: ProgramRef) -> Vec<ProgramRef> {
 /// True for a block that may call what its text does not name: by a number that is computed, by a code of its own, or by a
 /// code that parameters make a call.
 fn calls_something(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
-    let words = || {
-        items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Word(word) => Some(word),
-            _ => None,
-        })
-    };
-    let number = |word: &Word| match word.value.as_ref().map(|value| &value.kind) {
-        Some(ExprKind::Number(number)) => Some(number.value),
-        _ => None,
-    };
-    let names = words().any(|word| word.letter == 'P' && number(word).is_some());
-    words().any(|word| match word.letter {
+    let names = words(items).any(|word| word.letter == 'P' && number(word).is_some());
+    words(items).any(|word| match word.letter {
         'P' => number(word).is_none(),
         _ if number(word).is_some_and(|number| side.control.alias(word.letter, number).is_some()) => true,
         'G' | 'M' => {
@@ -208,15 +218,46 @@ fn has_words(item: &Item) -> bool {
     body.iter().any(|item| matches!(item.kind, ItemKind::Word(_)))
 }
 
-/// True for each rotary axis that blocks have a word of.
-fn rotary_in(blocks: &[Block]) -> [bool; 3] {
+/// True for each rotary axis that a program has a word of. An argument of a macro is no such word.
+fn rotary_in(side: &ProgramTexts<'_>, program: ProgramRef) -> [bool; 3] {
     let mut found = [false; 3];
-    for item in blocks.iter().flat_map(|block| &block.items) {
-        let ItemKind::Word(word) = &item.kind else { continue };
-        let axis = ROTARY.iter().position(|letter| *letter == word.letter);
-        axis.and_then(|axis| found.get_mut(axis)).into_iter().for_each(|moved| *moved = true);
+    for block in side.text(program) {
+        let axes =
+            || words(&block.items).filter_map(|word| ROTARY.iter().position(|axis| *axis == word.letter));
+        if axes().next().is_some() && !gives_arguments(side, &block.items) {
+            axes().for_each(|axis| found[axis] = true);
+        }
     }
     found
+}
+
+/// True for a block whose words are what it gives to a macro.
+fn gives_arguments(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
+    words(items).any(|word| {
+        number(word).is_some_and(|number| {
+            let alias = side.control.alias(word.letter, number);
+            let row =
+                || matches!(word.letter, 'G' | 'M').then(|| side.control.code(word.letter, number, &[]))?;
+            alias
+                .map_or_else(|| row().is_some_and(|row| ARGUMENTS.contains(&row.op)), |alias| alias.arguments)
+        })
+    })
+}
+
+/// The words of a block that stand under no condition.
+fn words(items: &[Item]) -> impl Iterator<Item = &Word> {
+    items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Word(word) => Some(word),
+        _ => None,
+    })
+}
+
+/// The number that a word has; none if it is computed.
+fn number(word: &Word) -> Option<f64> {
+    match word.value.as_ref().map(|value| &value.kind) {
+        Some(ExprKind::Number(number)) => Some(number.value),
+        _ => None,
+    }
 }
 
 /// A program's name as runs have it.

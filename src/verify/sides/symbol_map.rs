@@ -6,6 +6,7 @@ use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Bound;
 
 /// What a conversion named: registers and program numbers of the target, by their names on the source.
 ///
@@ -36,16 +37,27 @@ impl SymbolMap {
         }
         let digits = name.find(|sign: char| sign.is_ascii_digit());
         if let Some((letter, number)) = digits.and_then(|at| name.split_at_checked(at))
-            && let Some(base) = self.variables.get(&format!("{letter}(..)"))
+            && let Some(base) = self.base(letter)
             && let Ok(number) = number.parse::<u32>()
         {
             return Some(format!("{prefix}{}", base.checked_add(number)?));
         }
-        let (from, to) = (class_of(source, name)?, class_of(target, name)?);
-        let taken = numbered(name, prefix).is_some_and(|own| self.holds(own) || self.scratch.contains(&own));
         // Where nothing is vacant, numbers are not kept from another control.
-        let kept = target.is(Question::Vacancy) || source.name() == target.name();
-        (kept && (from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
+        if !target.is(Question::Vacancy) && source.name() != target.name() {
+            return None;
+        }
+        let (from, to) = (class_of(source, name)?, class_of(target, name)?);
+        let taken =
+            || numbered(name, prefix).is_some_and(|own| self.holds(own) || self.scratch.contains(&own));
+        ((from.class == "local") == (to.class == "local") && !taken()).then(|| name.to_owned())
+    }
+
+    /// What is added to every number of a letter's variables, where computed numbers may reach all of them.
+    fn base(&self, letter: &str) -> Option<u32> {
+        // A bracket comes before every digit.
+        let mut from = self.variables.range::<str, _>((Bound::Included(letter), Bound::Unbounded));
+        let is_all = |name: &str| name.strip_prefix(letter) == Some("(..)");
+        from.find(|(name, _)| name.as_str() != letter).filter(|(name, _)| is_all(name)).map(|(_, base)| *base)
     }
 
     /// The variable of the source that a register of the target holds; none if it holds none.
@@ -67,6 +79,18 @@ impl SymbolMap {
             class_of(source, name).is_some()
                 && self.variable(name, source, target).as_deref() == Some(register)
         })
+    }
+
+    /// The variables of the source that these registers of the target hold, as the conversion named them one by one.
+    pub(in crate::verify) fn holding<'n, 'r>(
+        &'n self,
+        registers: impl Iterator<Item = &'r String>,
+        target: &Control,
+    ) -> impl Iterator<Item = &'n str> {
+        let prefix = target.classes().iter().find(|row| row.class != "letter").map_or("", |row| &row.name);
+        let numbers: BTreeSet<u32> = registers.filter_map(|name| numbered(name, prefix)).collect();
+        let held = self.variables.iter().filter(move |(_, number)| numbers.contains(number));
+        held.map(|(name, _)| name.as_str())
     }
 
     /// True for a register of the target that holds what the conversion named: an argument, or whether something is vacant.

@@ -68,3 +68,28 @@ fn a_way_that_no_caller_goes_is_missing() {
     let missing: Vec<&str> = found.not_reached.iter().map(|way| way.way).collect();
     assert_eq!(missing, ["true"]);
 }
+
+/// A caller that has no conversion, and a macro that takes arguments in registers.
+fn alone(source: &str, target: &str) -> ProgramCertificate {
+    named(("fanuc", source), ("fadal", target), SymbolMap::default()).remove(1)
+}
+
+const TAKES: &str = "O1\nG65P2A1.B2.\nM30\nO2\nG90G17\nG1Y5.F10.\nG0X#1\n#500=#2\nM99\n";
+
+#[test]
+fn what_no_caller_can_give_is_no_difference() {
+    let target = "N1 O2\nN2 G90 G17\nN3 G1 Y5. F10.\nN4 #R5=V2\nN5 G0 X+R5\nN6 #V1=V3\nN7 M99\n";
+    let found = alone(TAKES, target);
+    assert_eq!(found.outcome, Outcome::Undecided, "{found:#?}");
+    let why = |found: &ProgramCertificate| found.reasons.iter().map(|reason| reason.why).collect::<Vec<_>>();
+    assert!(why(&found).contains(&Why::NotByItself), "{found:#?}");
+    assert!(found.reasons.iter().any(|reason| reason.text.contains("O0001, which calls it")), "{found:#?}");
+    // What it does before, whatever it is given, is its own.
+    for (from, to) in [("Y5.", "Y6."), ("F10.", "F11."), ("G1 Y5.", "G0 Y5.")] {
+        assert_eq!(target.matches(from).count(), 1, "{from}");
+        assert_eq!(alone(TAKES, &target.replace(from, to)).outcome, Outcome::Different, "{from} made {to}");
+    }
+    // And so is what it does where it takes nothing.
+    let takes_nothing = TAKES.replace("G0X#1\n#500=#2\n", "G0X#500\n");
+    assert_eq!(alone(&takes_nothing, target).outcome, Outcome::Different);
+}

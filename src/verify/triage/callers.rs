@@ -67,6 +67,11 @@ impl Through {
         self.entered && !self.differs && self.callers.is_empty()
     }
 
+    /// True where no run came through the program, and something that calls it has no conversion to run.
+    pub fn is_absent(&self) -> bool {
+        !self.entered && !self.differs && !self.absent.is_empty()
+    }
+
     /// Why a difference that shows by itself is none as the library calls the program, in words; none if
     /// nothing says so.
     pub fn excuses(&self) -> Option<String> {
