@@ -190,7 +190,12 @@ impl Control {
     /// How sure a fact is: of several rows of its name, as sure as the least sure; unconfirmed where it has no row.
     pub fn mark(&self, fact: &str) -> Mark {
         fn least<T: Row>(rows: &[T], fact: &str) -> Option<Mark> {
-            let named = |row: &&T| fact.starts_with(T::KIND) && row.fact() == fact;
+            // The name of a row is put together only where its kind fits.
+            let key = match fact.strip_prefix(T::KIND)? {
+                "" => "",
+                rest => rest.strip_prefix(':').filter(|key| !key.is_empty())?,
+            };
+            let named = |row: &&T| row.key() == key;
             rows.iter().filter(named).map(|row| row.origin().mark).min()
         }
         let d = self.dialect();

@@ -153,7 +153,7 @@ pub fn last_sequence(program: &Program) -> u32 {
             Label::Name(_) => None,
         });
         let sites = block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]);
-        labels.chain(sites.filter_map(|site| site.sequence)).max()
+        labels.chain(sites.filter_map(|site| site.sequence.get())).max()
     };
     program.blocks.iter().filter_map(of_block).max().unwrap_or(0)
 }

@@ -67,8 +67,8 @@ mod walk;
 pub use build::Builder;
 pub use expr::{BinOp, Cond, Expr, Relation};
 pub use stmt::{
-    Argument, Bank, Call, Callee, Comment, Nc, NcItem, OutputPart, Place, PrintPart, SourceInfo, Stmt,
-    StmtKind, TermKind, Terminator,
+    Argument, Bank, BlockNumber, Call, Callee, Comment, Nc, NcItem, OutputPart, Place, PrintPart, SourceInfo,
+    Stmt, StmtKind, TermKind, Terminator,
 };
 pub use validate::{Valid, validate};
 pub use var::{Class, FLAGS, LAST_NUMBER, LOCAL_FLAGS, OF_NO_LEVEL, Var, flag_of};

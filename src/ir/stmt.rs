@@ -57,12 +57,53 @@ pub struct SourceInfo {
     /// The bytes of the block in its file.
     pub span: Span,
     /// Its sequence number.
-    pub sequence: Option<u32>,
+    pub sequence: BlockNumber,
     /// Its comments.
     pub comments: ThinVec<Comment>,
     /// Its block-skip level: skipped when that switch is on. On a terminator always absent:
     /// lowering makes a branch on [`Cond::Switch`] of it.
     pub skip: Option<u8>,
+}
+
+/// A sequence number, or none, in no more room than that takes: there are as many as blocks and statements.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub struct BlockNumber {
+    is_some: bool,
+    number: [u8; 4],
+}
+
+impl BlockNumber {
+    /// The number.
+    pub fn get(self) -> Option<u32> {
+        self.is_some.then_some(u32::from_ne_bytes(self.number))
+    }
+
+    /// True where there is one.
+    pub fn is_some(self) -> bool {
+        self.is_some
+    }
+
+    /// True where there is none.
+    pub fn is_none(self) -> bool {
+        !self.is_some
+    }
+
+    /// The number, which is none from here on.
+    pub fn take(&mut self) -> Option<u32> {
+        std::mem::take(self).get()
+    }
+}
+
+impl From<Option<u32>> for BlockNumber {
+    fn from(number: Option<u32>) -> Self {
+        Self { is_some: number.is_some(), number: number.unwrap_or_default().to_ne_bytes() }
+    }
+}
+
+impl std::fmt::Debug for BlockNumber {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.get().fmt(f)
+    }
 }
 
 /// A comment.
@@ -212,7 +253,7 @@ pub enum TermKind {
     /// Goes on at one of two.
     Branch {
         /// Which.
-        cond: Cond,
+        cond: Box<Cond>,
         /// Where it holds.
         then: BlockId,
         /// Where it does not.
@@ -222,9 +263,9 @@ pub enum TermKind {
     /// alarm where none is.
     Computed {
         /// The label's number.
-        value: Expr,
+        value: Box<Expr>,
         /// Every block that has a number for a label.
-        targets: Vec<(u32, BlockId)>,
+        targets: ThinVec<(u32, BlockId)>,
     },
     /// Calls, then goes on.
     Call {

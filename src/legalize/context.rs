@@ -88,25 +88,60 @@ pub struct Copied {
 
 #[derive(Debug, Default)]
 struct Findings {
-    by_program: Vec<Vec<Diagnostic>>,
-    /// What was said once, by program.
-    said: HashSet<(usize, u32)>,
+    /// With the program of each, in the order they were found. A list never grows: one for each program, grown as it
+    /// gets more, takes twice the room.
+    lists: Vec<Vec<(u32, Diagnostic)>>,
+    /// By program, the numbers of what was said once, in their order.
+    said: Vec<Vec<u32>>,
     /// The number of each fact that something is said of once.
     facts: HashMap<Box<str>, u32>,
     /// Texts that were said before: a library has few, many times over.
     texts: HashSet<Arc<str>>,
 }
 
+/// Findings of the longest lists.
+const LIST: usize = 1024;
+
 impl Findings {
+    /// None yet, of so many programs.
+    fn of(programs: usize) -> Self {
+        Self { said: vec![Vec::new(); programs], ..Self::default() }
+    }
+
     fn add(&mut self, origin: usize, mut diagnostic: Diagnostic) {
-        let Some(findings) = self.by_program.get_mut(origin) else { return };
         for text in [Some(&mut diagnostic.message), diagnostic.help.as_mut()].into_iter().flatten() {
             match self.texts.get(text) {
                 Some(same) => *text = Arc::clone(same),
                 None => drop(self.texts.insert(Arc::clone(text))),
             }
         }
-        findings.push(diagnostic);
+        self.push(origin, diagnostic);
+    }
+
+    fn push(&mut self, origin: usize, diagnostic: Diagnostic) {
+        if origin >= self.said.len() {
+            return;
+        }
+        let next = (16 << self.lists.len().min(6)).min(LIST);
+        match self.lists.last_mut().filter(|list| list.len() < list.capacity()) {
+            Some(list) => list.push((origin as u32, diagnostic)),
+            None => {
+                let mut list = Vec::with_capacity(next);
+                list.push((origin as u32, diagnostic));
+                self.lists.push(list);
+            }
+        }
+    }
+
+    /// By program.
+    fn into_all(self) -> Vec<Vec<Diagnostic>> {
+        let mut counts = vec![0; self.said.len()];
+        self.lists.iter().flatten().for_each(|(origin, _)| counts[*origin as usize] += 1);
+        let mut all: Vec<Vec<Diagnostic>> = counts.into_iter().map(Vec::with_capacity).collect();
+        for (origin, finding) in self.lists.into_iter().flatten() {
+            all[origin as usize].push(finding);
+        }
+        all
     }
 
     /// True the first time for a program and a fact.
@@ -116,14 +151,19 @@ impl Findings {
             Some(number) => *number,
             None => *self.facts.entry(fact.into()).or_insert(next),
         };
-        self.said.insert((origin, number))
+        let Some(said) = self.said.get_mut(origin) else { return false };
+        let place = said.binary_search(&number);
+        place.is_err_and(|place| {
+            said.insert(place, number);
+            true
+        })
     }
 }
 
 impl<'a> Context<'a> {
     /// A context without findings, for a library of so many programs.
     pub fn new(source: &'a Control, target: &'a Control, programs: usize) -> Self {
-        let findings = Findings { by_program: vec![Vec::new(); programs], ..Findings::default() };
+        let findings = Findings::of(programs);
         let (rested, facts) = Default::default();
         Self {
             source,
@@ -253,13 +293,10 @@ impl<'a> Context<'a> {
         faults.iter().any(|fault| span.start <= fault.start && fault.end <= span.end)
     }
 
-    /// Adds findings to a program that gets few others: they take no more room than they need.
+    /// Adds findings whose texts are shared already.
     pub fn add_all(&mut self, program: usize, diagnostics: Vec<Diagnostic>) {
         let origin = self.origins.get(program).copied().unwrap_or(program);
-        if let Some(findings) = self.findings.by_program.get_mut(origin) {
-            findings.reserve_exact(diagnostics.len());
-            findings.extend(diagnostics);
-        }
+        diagnostics.into_iter().for_each(|diagnostic| self.findings.push(origin, diagnostic));
     }
 
     /// Adds a finding unless the program has one about the same `fact` already: what
@@ -342,11 +379,11 @@ impl<'a> Context<'a> {
 
     /// How many findings there are so far.
     pub fn found(&self) -> usize {
-        self.findings.by_program.iter().map(Vec::len).sum()
+        self.findings.lists.iter().map(Vec::len).sum()
     }
 
     /// What was found, by program of the source.
     pub fn into_findings(self) -> Vec<Vec<Diagnostic>> {
-        self.findings.by_program
+        self.findings.into_all()
     }
 }

@@ -190,7 +190,7 @@ impl Features {
             TermKind::Chain(_) => self.add(Feature::Chain),
             TermKind::Return { to: Some(_) } => self.add(Feature::ReturnTo),
             TermKind::Computed { .. } => self.add(Feature::ComputedJump),
-            TermKind::Branch { cond: Cond::And(_) | Cond::Or(_) | Cond::Not(_), .. } => {
+            TermKind::Branch { cond, .. } if matches!(**cond, Cond::And(_) | Cond::Or(_) | Cond::Not(_)) => {
                 self.add(Feature::Compound);
             }
             TermKind::Jump(_) => return,

@@ -9,6 +9,7 @@ use crate::ir::{Callee, Module, TermKind};
 use crate::legalize::{Copied, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
+use foldhash::HashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -53,7 +54,7 @@ pub(super) fn links(module: &Module, origins: &[usize]) -> Vec<Link> {
         first.entry(*origin).or_insert(at);
     });
     let names = module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.as_ref()?, at)));
-    let by_name: BTreeMap<&ProgramName, usize> = names.collect();
+    let by_name: HashMap<&ProgramName, usize> = names.collect();
     let linked = |name: &ProgramName, caller: usize| {
         let at = *by_name.get(name)?;
         let callee = *origins.get(at).filter(|callee| **callee != caller)?;

@@ -275,7 +275,7 @@ pub(super) fn sequence_twice(looked: &Looked<'_>, findings: &mut Findings) {
             .iter()
             .flat_map(|block| block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]));
         for site in stmts {
-            let Some(number) = site.sequence else { continue };
+            let Some(number) = site.sequence.get() else { continue };
             let before = *first.entry(number).or_insert(site.span);
             if before.start < site.span.start {
                 let line = looked.line(at, before);

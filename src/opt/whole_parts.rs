@@ -116,11 +116,8 @@ fn set(stmt: &Stmt) -> Option<(Var, &Expr)> {
 
 /// The variable whose sign a block asks for at its end, where it goes on if that is not below 0, and where if it is.
 fn sign(block: &Block) -> Option<(Var, BlockId, BlockId)> {
-    let TermKind::Branch { cond: Cond::Compare(relation, Expr::Var(var), zero), then, otherwise } =
-        &block.term.kind
-    else {
-        return None;
-    };
+    let TermKind::Branch { cond, then, otherwise } = &block.term.kind else { return None };
+    let Cond::Compare(relation, Expr::Var(var), zero) = &**cond else { return None };
     let plain = block.term.site.comments.is_empty() && block.term.site.skip.is_none();
     if zero.constant() != Some(0.0) || !plain {
         return None;

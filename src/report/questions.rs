@@ -8,8 +8,11 @@ use crate::assume::Predicate;
 use crate::diag::{Accepted, Code, Diagnostic, Severity};
 use crate::dialect::{Control, Settled, Side};
 use crate::text::LineIndex;
-use std::collections::{BTreeMap, BTreeSet};
+use foldhash::{HashMap, HashSet};
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::ptr;
+use std::sync::Arc;
 
 /// Places that are named of a question.
 const NAMED: usize = 3;
@@ -86,19 +89,46 @@ pub struct Questions<'a> {
 struct Gathered<'a> {
     finding: &'a Diagnostic,
     /// By file and place in the library: one that goes to two machines is one.
-    programs: BTreeSet<(&'a Path, usize)>,
+    programs: HashSet<(usize, usize)>,
     places: Vec<String>,
     line: (u32, String),
     spots: Vec<Spot>,
 }
 
+impl<'a> Gathered<'a> {
+    fn of(finding: &'a Diagnostic) -> Self {
+        let (programs, line) = (HashSet::default(), (0, String::new()));
+        Self { finding, programs, places: Vec::new(), line, spots: Vec::new() }
+    }
+}
+
+/// What makes two findings of a part surely one question: the texts and values that they share. A library has few,
+/// many times over.
+type Same = (Code, [*const u8; 4]);
+
+fn same(finding: &Diagnostic) -> Same {
+    fn of<T: ?Sized>(value: Option<&Arc<T>>) -> *const u8 {
+        value.map_or(ptr::null(), |value| Arc::as_ptr(value).cast())
+    }
+    let texts = [Some(&finding.message), finding.help.as_ref()].map(of);
+    (finding.code, [texts[0], texts[1], of(finding.assumes.as_ref()), of(finding.accepted.as_ref())])
+}
+
 impl<'a> Questions<'a> {
     /// Gathers the findings of conversions.
     pub fn of(parts: &[Part<'a>]) -> Self {
-        let mut all: BTreeMap<Key<'a>, Gathered<'a>> = BTreeMap::new();
+        let mut all: BTreeMap<Key<'a>, usize> = BTreeMap::new();
+        let mut gathered: Vec<Gathered<'a>> = Vec::new();
         let mut controls: Vec<&'a Control> = Vec::new();
         let mut notes = 0;
+        let mut paths: HashMap<&'a Path, usize> = HashMap::default();
         for (number, part) in parts.iter().enumerate() {
+            let mut numbered = |path: &'a Path| {
+                let next = paths.len();
+                *paths.entry(path).or_insert(next)
+            };
+            let files: Vec<usize> = part.inputs.iter().map(|input| numbered(&input.path)).collect();
+            let mut known: HashMap<Same, usize> = HashMap::default();
             // The lines of a file are counted when the first place in it is named.
             let mut lines: Option<(usize, LineIndex)> = None;
             for (index, program) in part.programs() {
@@ -107,15 +137,14 @@ impl<'a> Questions<'a> {
                         notes += 1;
                         continue;
                     }
-                    let fresh = || Gathered {
-                        finding,
-                        programs: BTreeSet::new(),
-                        places: Vec::new(),
-                        line: (0, String::new()),
-                        spots: Vec::new(),
-                    };
-                    let entry = all.entry(key(finding, part, &mut controls)).or_insert_with(fresh);
-                    entry.programs.insert((&part.inputs[program.file].path, index));
+                    let at = *known.entry(same(finding)).or_insert_with(|| {
+                        *all.entry(key(finding, part, &mut controls)).or_insert_with(|| {
+                            gathered.push(Gathered::of(finding));
+                            gathered.len() - 1
+                        })
+                    });
+                    let entry = &mut gathered[at];
+                    entry.programs.insert((files[program.file], index));
                     let is_known = |spot: &Spot| spot.part == number && spot.program == index;
                     let keeps = entry.spots.len() < KEPT && !entry.spots.last().is_some_and(is_known);
                     if entry.places.len() == NAMED && !keeps {
@@ -145,8 +174,10 @@ impl<'a> Questions<'a> {
         }
         let mut questions = Self { notes, ..Self::default() };
         questions.machines = controls.iter().map(|control| Machine { control, facts: Vec::new() }).collect();
-        for (key, gathered) in all {
-            let Gathered { finding, programs, places, line, spots } = gathered;
+        for (key, at) in all {
+            let finding = gathered[at].finding;
+            let Gathered { programs, places, line, spots, .. } =
+                std::mem::replace(&mut gathered[at], Gathered::of(finding));
             let (text, help) = (&*finding.message, finding.help.as_deref());
             let (code, programs, danger) = (key.code, programs.len(), danger(finding));
             let once = finding.once;

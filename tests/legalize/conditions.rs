@@ -76,7 +76,9 @@ fn comments_and_number_stay_with_the_first_branch() {
         .blocks
         .iter()
         .filter(|block| matches!(block.term.kind, TermKind::Branch { .. }))
-        .map(|block| (block.term.site.sequence, block.term.site.comments.len(), block.term.site.span.start))
+        .map(|block| {
+            (block.term.site.sequence.get(), block.term.site.comments.len(), block.term.site.span.start)
+        })
         .collect();
     assert_eq!(sites, [(Some(10), 1, 5), (None, 0, 5)]);
 }

@@ -86,7 +86,8 @@ fn a_comparison_with_0_goes_the_same_way() {
             ));
             let (after, _) = legalized("operands", &before, &source, &target);
             for block in &after.programs[0].blocks {
-                if let TermKind::Branch { cond: macroglot::ir::Cond::Compare(_, a, b), .. } = &block.term.kind
+                if let TermKind::Branch { cond, .. } = &block.term.kind
+                    && let macroglot::ir::Cond::Compare(_, a, b) = &**cond
                 {
                     assert!(is_variable(a) && *b == Expr::Number(0.0), "{after}");
                 }

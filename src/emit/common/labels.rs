@@ -136,8 +136,8 @@ impl Labels {
     /// Lets a block keep the number at its head, or one of its labels.
     fn keep(&mut self, at: usize, block: &Block) {
         let head = match block.stmts.first() {
-            Some(stmt) => stmt.site.sequence,
-            None => block.term.site.sequence,
+            Some(stmt) => stmt.site.sequence.get(),
+            None => block.term.site.sequence.get(),
         };
         let mine = |number: &u32| {
             let owner = self.claimed.get(number);
@@ -170,7 +170,7 @@ fn lettered(block: &Block) -> Option<u32> {
 
 /// The sequence numbers in a block, in order.
 fn sequences(block: &Block) -> impl DoubleEndedIterator<Item = u32> {
-    block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]).filter_map(|site| site.sequence)
+    block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]).filter_map(|site| site.sequence.get())
 }
 
 /// Finds numbers that nobody has.

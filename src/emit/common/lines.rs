@@ -56,7 +56,7 @@ impl<'p> Sheet<'p> {
         }
         let last = self.line.last.filter(|last| !site.span.is_empty() && last.span == site.span);
         if last.is_none_or(|last| last.sequence.is_none()) && self.line.sequence.is_none() {
-            self.line.sequence = site.sequence;
+            self.line.sequence = site.sequence.get();
         }
         if last.is_none_or(|last| last.comments != site.comments) {
             self.line.waiting.extend(&site.comments);

@@ -137,7 +137,7 @@ impl<'p> Emitter<'p> {
     fn end(&mut self, block: &'p Block, form: Form) -> Option<&'p Cond> {
         let site = &block.term.site;
         let condition = match &block.term.kind {
-            TermKind::Branch { cond, .. } => Some(cond),
+            TermKind::Branch { cond, .. } => Some(&**cond),
             _ => None,
         };
         match form {

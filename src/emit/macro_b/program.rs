@@ -123,7 +123,7 @@ impl<'p> Emitter<'p> {
             let stands = || block.stmts.iter().map(|s| &s.site).chain([&block.term.site]);
             let written = match self.out.labels.standing(number, at) {
                 Standing::Label => true,
-                Standing::Free => stands().all(|site| site.sequence != Some(number)),
+                Standing::Free => stands().all(|site| site.sequence.get() != Some(number)),
                 Standing::Barred => false,
             };
             match own {
@@ -153,7 +153,7 @@ impl<'p> Emitter<'p> {
     fn end(&mut self, block: &'p Block, form: Form, joined: bool) {
         let site = &block.term.site;
         let condition = match &block.term.kind {
-            TermKind::Branch { cond, .. } => Some(cond),
+            TermKind::Branch { cond, .. } => Some(&**cond),
             _ => None,
         };
         match form {

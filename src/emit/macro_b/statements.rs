@@ -249,7 +249,7 @@ impl<'p> Emitter<'p> {
             TermKind::Chain(_) => self.out.unmapped("the start of another program"),
             TermKind::Computed { value, .. } if self.out.has_statement("goto.computed") => {
                 self.out.word("GOTO ");
-                match value {
+                match &**value {
                     Expr::Number(number) => self.out.number(*number, false),
                     value => self.behind_letter(value),
                 }

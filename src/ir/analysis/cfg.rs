@@ -3,6 +3,7 @@
 use super::dataflow::reached_among;
 use crate::ir::{Block, BlockId, Callee, Module, Program, StmtKind, TermKind};
 use crate::syntax::Label;
+use foldhash::HashSet;
 use smallvec::{SmallVec, smallvec};
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -249,7 +250,7 @@ pub(super) fn labelled(program: &Program) -> impl Iterator<Item = BlockId> + '_ 
 /// True where a call of another program may come back at a label of the caller: some program of
 /// the library returns to a sequence number, or a callee is not in the library.
 pub fn may_come_back(module: &Module) -> bool {
-    let names: BTreeSet<_> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    let names: HashSet<_> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     module.programs.iter().flat_map(|program| &program.blocks).any(|block| match &block.term.kind {
         TermKind::Return { to } => to.is_some(),
         TermKind::Call { call, .. } => match &call.callee {

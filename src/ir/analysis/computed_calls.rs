@@ -4,6 +4,7 @@ use super::modal::calls_of;
 use crate::ir::analysis::{Ranges, Summaries, Values};
 use crate::ir::{Block, BlockId, Call, Callee, Class, Expr, Module, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
+use foldhash::HashMap;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the computed calls of a block may call.
@@ -28,7 +29,7 @@ impl Callees {
 
 /// The programs of a library that each of its calls may run.
 pub struct CalledPrograms {
-    by_name: BTreeMap<ProgramName, usize>,
+    by_name: HashMap<ProgramName, usize>,
     computed: BTreeMap<(usize, BlockId), Callees>,
 }
 

@@ -5,7 +5,8 @@ use super::set::VarSet;
 use crate::canon::Op;
 use crate::ir::{Bank, Call, Callee, Class, Expr, Module, Nc, Place, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
-use std::collections::{BTreeMap, BTreeSet};
+use foldhash::HashMap;
+use std::collections::BTreeSet;
 
 /// Variables, one by one and by whole classes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -58,7 +59,7 @@ impl Extend<Class> for Classes {
 pub struct Summaries {
     /// By program: what it calls included.
     written: Vec<Vars>,
-    names: BTreeMap<ProgramName, usize>,
+    names: HashMap<ProgramName, usize>,
     /// By the modal calls that an NC block may make.
     modal: Vars,
     /// By a body in the same program, or by what cannot be told.

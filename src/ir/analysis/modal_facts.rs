@@ -12,6 +12,7 @@ use super::modal::{Modal, calls_of};
 use crate::ir::analysis::dataflow::{Lattice, Routines};
 use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::syntax::{Label, ProgramName};
+use foldhash::HashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -74,7 +75,7 @@ struct Analysis<'m> {
     module: &'m Module,
     /// True where nested modal calls do not enter the program that they name.
     copies: bool,
-    by_name: BTreeMap<&'m ProgramName, usize>,
+    by_name: HashMap<&'m ProgramName, usize>,
     computed: BTreeMap<Place, Callees>,
     /// By block of all programs, one program after the other.
     entries: Routines<Rc<Modal>>,

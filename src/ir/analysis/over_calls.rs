@@ -7,6 +7,7 @@ use super::dataflow::{Analysis, Direction, Lattice, States, solve};
 use super::{Cfg, calls_of, reachable};
 use crate::ir::{Block, BlockId, Call, Callee, Module, Program, TermKind};
 use crate::syntax::ProgramName;
+use foldhash::HashMap;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What is followed.
@@ -47,7 +48,7 @@ type Entry = (usize, BlockId);
 struct Rules<'r, F: Follow> {
     index: usize,
     follow: &'r F,
-    names: &'r BTreeMap<ProgramName, usize>,
+    names: &'r HashMap<ProgramName, usize>,
     entries: &'r BTreeMap<Entry, F::Known>,
     exits: &'r BTreeMap<Entry, F::Known>,
 }
@@ -92,7 +93,7 @@ pub struct OverCalls<K> {
 impl<K: Lattice + Clone> OverCalls<K> {
     /// Follows all programs and what they call until nothing changes.
     pub fn of<F: Follow<Known = K>>(module: &Module, follow: &F) -> Self {
-        let names: BTreeMap<ProgramName, usize> =
+        let names: HashMap<ProgramName, usize> =
             module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at))).collect();
         let called = called(module);
         let (mut entries, mut exits): (BTreeMap<Entry, K>, BTreeMap<Entry, K>) = Default::default();
@@ -168,7 +169,7 @@ fn returns(program: &Program, entry: BlockId) -> Vec<BlockId> {
 }
 
 /// By program, those that call it, itself where it calls a part of its own.
-fn callers(module: &Module, names: &BTreeMap<ProgramName, usize>) -> Vec<BTreeSet<usize>> {
+fn callers(module: &Module, names: &HashMap<ProgramName, usize>) -> Vec<BTreeSet<usize>> {
     let mut callers = vec![BTreeSet::new(); module.programs.len()];
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
@@ -188,7 +189,7 @@ fn callers(module: &Module, names: &BTreeMap<ProgramName, usize>) -> Vec<BTreeSe
 
 /// Which programs of a library others call.
 pub fn called(module: &Module) -> Vec<bool> {
-    let names: BTreeMap<&ProgramName, usize> =
+    let names: HashMap<&ProgramName, usize> =
         module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.as_ref()?, at))).collect();
     let mut called = vec![false; module.programs.len()];
     for call in module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of) {

@@ -7,6 +7,7 @@ use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
 use crate::ir::analysis::{BitRow, CallGraph, Cfg, Universe, VarSet};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
+use foldhash::{HashMap, HashSet};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use written::Written;
@@ -170,7 +171,7 @@ enum Called {
 }
 
 /// Which routine a call runs.
-struct Callees<'m>(BTreeMap<&'m ProgramName, usize>);
+struct Callees<'m>(HashMap<&'m ProgramName, usize>);
 
 impl<'m> Callees<'m> {
     fn of(module: &'m Module) -> Self {
@@ -287,7 +288,7 @@ fn read(e: &Expr, f: &mut dyn FnMut(Var)) {
 /// The programs that nothing in the library calls by name: where runs begin, or where callers outside it call. One that
 /// computed calls run is begun by itself too.
 pub fn roots(module: &Module) -> Vec<usize> {
-    let mut called: BTreeSet<&ProgramName> = BTreeSet::new();
+    let mut called: HashSet<&ProgramName> = HashSet::default();
     for program in &module.programs {
         for block in &program.blocks {
             for call in calls_of(block) {

@@ -107,7 +107,7 @@ impl<'t> Parser<'t> {
             && let Some(number) = numbered(word, "N")
         {
             self.next();
-            site.sequence = Some(number);
+            site.sequence = Some(number).into();
         }
         if self.eat_word("skip") {
             let level = self.integer()?;

@@ -129,7 +129,7 @@ impl Parser<'_> {
                 self.mark("?")?;
                 let then = self.block_id()?;
                 self.mark(":")?;
-                TermKind::Branch { cond, then, otherwise: self.block_id()? }
+                TermKind::Branch { cond: Box::new(cond), then, otherwise: self.block_id()? }
             }
             "computed" => {
                 let value = self.expr()?;
@@ -138,7 +138,7 @@ impl Parser<'_> {
                     p.mark(":")?;
                     Ok((number, p.block_id()?))
                 })?;
-                TermKind::Computed { value, targets }
+                TermKind::Computed { value: Box::new(value), targets: targets.into() }
             }
             "call" => {
                 let call = self.call()?;

@@ -156,7 +156,7 @@ fn site(f: &mut Formatter<'_>, site: &SourceInfo) -> Result {
     if site.span != Span::default() {
         write!(f, " @{}..{}", site.span.start, site.span.end)?;
     }
-    site.sequence.iter().try_for_each(|number| write!(f, " N{number}"))?;
+    site.sequence.get().iter().try_for_each(|number| write!(f, " N{number}"))?;
     site.skip.iter().try_for_each(|level| write!(f, " skip {level}"))?;
     site.comments.iter().try_for_each(|comment| {
         write!(f, " {}{}", if comment.leading { "^" } else { "" }, quote(&comment.text))

@@ -68,7 +68,10 @@ fn reads_the_example_of_the_documentation() {
     assert_eq!(program.name, Some(ProgramName::Number(9010)));
     assert_eq!(program.blocks[1].labels[..], [Label::Number(20), Label::Name("LOOP".into())]);
     let stmt = &program.blocks[0].stmts[0];
-    assert_eq!((stmt.site.span, stmt.site.sequence, stmt.site.skip), (Span::new(6, 20), Some(10), Some(1)));
+    assert_eq!(
+        (stmt.site.span, stmt.site.sequence.get(), stmt.site.skip),
+        (Span::new(6, 20), Some(10), Some(1))
+    );
     assert!(stmt.site.comments[0].leading && !stmt.site.comments[1].leading);
     let StmtKind::Nc(nc) = &program.blocks[0].stmts[1].kind else { panic!() };
     assert!(nc.has(Op::Linear));
@@ -152,7 +155,7 @@ proptest! {
 
     #[test]
     fn every_value_reads_back_bit_for_bit(value in exprs(), text in ".*", role in prop::sample::select(Role::ALL)) {
-        let site = SourceInfo { comments: [Comment { text, leading: true }].into(), sequence: Some(7), ..SourceInfo::default() };
+        let site = SourceInfo { comments: [Comment { text, leading: true }].into(), sequence: Some(7).into(), ..SourceInfo::default() };
         let nc = Nc { items: vec![NcItem::Word(role, value.clone()), NcItem::Code('é', value.clone()), NcItem::Op(Op::End)] };
         let target = value.place().unwrap_or(Place::Indirect(Bank::Numbered, Box::new(value.clone())));
         let stmts = [StmtKind::Nc(nc), StmtKind::Assign { target, value }];

@@ -262,10 +262,11 @@ impl<'c> Found<'c> {
         let span = self.span(blocks, block.stmts.len());
         block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
         match &block.term.kind {
-            TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour(Question::SkipLevels, span),
-            TermKind::Branch { cond: Cond::And(_) | Cond::Or(_), .. } => {
-                self.behaviour(Question::ConditionAndOr, span);
-            }
+            TermKind::Branch { cond, .. } => match &**cond {
+                Cond::Switch(2..) => self.behaviour(Question::SkipLevels, span),
+                Cond::And(_) | Cond::Or(_) => self.behaviour(Question::ConditionAndOr, span),
+                _ => {}
+            },
             TermKind::End { rewind } => {
                 let op = if *rewind { Op::EndRewind } else { Op::End };
                 self.code(op, &Default::default(), span);

@@ -157,14 +157,22 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 if targets.len() > FEW && computed {
                     let here = Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(0.0));
                     let jump = builder.fresh();
-                    builder.end(TermKind::Branch { cond: here, then: next, otherwise: jump }, site());
+                    builder
+                        .end(TermKind::Branch { cond: Box::new(here), then: next, otherwise: jump }, site());
                     builder.start(jump);
-                    return builder.end(TermKind::Computed { value: Expr::Var(temp), targets }, site());
+                    return builder.end(
+                        TermKind::Computed { value: Box::new(Expr::Var(temp)), targets: targets.into() },
+                        site(),
+                    );
                 }
                 for (number, to) in targets {
                     let cond =
                         Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(f64::from(number)));
-                    builder.end_then(site(), |otherwise| TermKind::Branch { cond, then: to, otherwise });
+                    builder.end_then(site(), |otherwise| TermKind::Branch {
+                        cond: Box::new(cond),
+                        then: to,
+                        otherwise,
+                    });
                 }
                 builder.end(TermKind::Jump(next), SourceInfo::default());
             }

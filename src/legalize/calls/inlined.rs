@@ -121,7 +121,7 @@ fn body(builder: &mut Builder, program: &Program, entry: BlockId, next: BlockId,
         let Some(block) = program.block(*id) else { continue };
         builder.start(*copy);
         for Stmt { kind, site } in block.stmts.iter().cloned() {
-            builder.push(kind, SourceInfo { sequence: None, ..site });
+            builder.push(kind, SourceInfo { sequence: None.into(), ..site });
         }
         let Terminator { mut kind, site } = block.term.clone();
         match &mut kind {
@@ -134,7 +134,7 @@ fn body(builder: &mut Builder, program: &Program, entry: BlockId, next: BlockId,
                 }
             }
         }
-        builder.end(kind, SourceInfo { sequence: None, ..site });
+        builder.end(kind, SourceInfo { sequence: None.into(), ..site });
     }
 }
 

@@ -16,6 +16,7 @@ use crate::ir::{
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
+use thin_vec::ThinVec;
 
 /// Most labels that a jump is written out for.
 const MOST: usize = 64;
@@ -49,7 +50,7 @@ struct Jump {
     value: Expr,
     /// The value may have a fraction.
     rounded: bool,
-    targets: Vec<(u32, BlockId)>,
+    targets: ThinVec<(u32, BlockId)>,
     /// The value may be that of no label.
     may_miss: bool,
 }
@@ -69,7 +70,7 @@ fn jumps(program: &Program, summaries: &Summaries) -> Vec<(SourceInfo, Jump)> {
         let negative = values.bounds().is_none_or(|(low, _)| low < 0.0);
         let may_miss = negative || value.may_be_vacant() || !values.all_whole() || !known.holds(&numbers);
         let rounded = !values.all_whole() && !value.is_whole();
-        found.push((block.term.site.clone(), Jump { value: value.clone(), rounded, targets, may_miss }));
+        found.push((block.term.site.clone(), Jump { value: Expr::clone(value), rounded, targets, may_miss }));
     }
     found
 }
@@ -109,7 +110,11 @@ fn chain(builder: &mut Builder, jump: Jump, temp: Var, site: SourceInfo) {
     let branches = jump.targets.len() - usize::from(last.is_some());
     for (number, to) in jump.targets.into_iter().take(branches) {
         let cond = Cond::Compare(Relation::Equal, value.clone(), Expr::Number(f64::from(number)));
-        builder.end_then(next_site(), |otherwise| TermKind::Branch { cond, then: to, otherwise });
+        builder.end_then(next_site(), |otherwise| TermKind::Branch {
+            cond: Box::new(cond),
+            then: to,
+            otherwise,
+        });
     }
     match last {
         Some((_, to)) => builder.end(TermKind::Jump(to), next_site()),

@@ -11,7 +11,7 @@ use crate::legalize::registers::needs::has_locals;
 use crate::legalize::{Context, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::collections::BTreeSet;
+use foldhash::HashSet;
 
 /// Reports calls of what is not there.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -30,7 +30,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 fn report(module: &Module, context: &mut Context<'_>) {
-    let known: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    let known: HashSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
             for call in calls_of(block) {
@@ -65,7 +65,7 @@ fn unplaced(name: &ProgramName, index: usize, span: Span, context: &mut Context<
 
 fn check(
     callee: &Callee,
-    known: &BTreeSet<&ProgramName>,
+    known: &HashSet<&ProgramName>,
     index: usize,
     span: Span,
     context: &mut Context<'_>,

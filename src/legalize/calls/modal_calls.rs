@@ -266,7 +266,7 @@ impl Expansion {
                                     };
                                     let then = behind;
                                     builder.end_then(SourceInfo::default(), |otherwise| TermKind::Branch {
-                                        cond,
+                                        cond: Box::new(cond),
                                         then,
                                         otherwise,
                                     });

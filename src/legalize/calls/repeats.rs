@@ -140,7 +140,10 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
         let (head, body, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
         builder.start(head);
         let cond = Cond::Compare(Relation::Greater, Expr::Var(left), Expr::Number(0.0));
-        builder.end(TermKind::Branch { cond, then: body, otherwise: behind }, SourceInfo::default());
+        builder.end(
+            TermKind::Branch { cond: Box::new(cond), then: body, otherwise: behind },
+            SourceInfo::default(),
+        );
         builder.start(body);
         builder.push(StmtKind::Nc(nc), stmt.site);
         let one_less = Expr::binary(BinOp::Sub, Expr::Var(left), Expr::Number(1.0));

@@ -102,7 +102,7 @@ fn split(
     }
     let site = |first: bool, stmt: &mut Stmt| SourceInfo {
         span: stmt.site.span,
-        sequence: if first { stmt.site.sequence.take() } else { None },
+        sequence: if first { std::mem::take(&mut stmt.site.sequence) } else { None.into() },
         skip: stmt.site.skip,
         ..SourceInfo::default()
     };

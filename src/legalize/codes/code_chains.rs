@@ -255,7 +255,7 @@ fn lay(builder: &mut Builder, chain: Chain, nc: &Nc, site: SourceInfo) {
     let branch = |builder: &mut Builder, with: Expr, choice: Option<&Choice>| {
         let (then, otherwise) = (builder.fresh(), builder.fresh());
         let cond = Cond::Compare(Relation::Equal, chain.value.clone(), with);
-        builder.end(TermKind::Branch { cond, then, otherwise }, place.clone());
+        builder.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, place.clone());
         builder.start(then);
         block(builder, choice);
         builder.start(otherwise);

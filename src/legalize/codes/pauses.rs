@@ -183,12 +183,12 @@ fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Stmts) {
         if !words.is_empty() {
             out.push(Stmt {
                 kind: nc(words),
-                site: SourceInfo { sequence: stmt.site.sequence.take(), ..site.clone() },
+                site: SourceInfo { sequence: stmt.site.sequence.take().into(), ..site.clone() },
             });
         }
     }
     for op in before {
-        let sequence = stmt.site.sequence.take();
+        let sequence = stmt.site.sequence.take().into();
         out.push(Stmt { kind: nc(vec![NcItem::Op(op)]), site: SourceInfo { sequence, ..site.clone() } });
     }
     out.push(stmt);

@@ -52,7 +52,7 @@ fn split_program(program: &mut Program, compound: &dyn Fn(&Cond) -> bool) {
         Part::Term(Terminator { kind: TermKind::Branch { cond, then, otherwise }, site })
             if compound(&cond) =>
         {
-            let cond = temps.hold_alarming(builder, cond, &site);
+            let cond = temps.hold_alarming(builder, *cond, &site);
             split(builder, cond, then, otherwise, &site, true);
         }
         other => other.keep(builder),
@@ -77,11 +77,13 @@ fn split(
             split(b, part, then, if last { otherwise } else { next }, site, first);
         }),
         Cond::Not(inner) => match *inner {
-            Cond::Switch(n) => builder
-                .end(TermKind::Branch { cond: Cond::Switch(n), then: otherwise, otherwise: then }, here()),
+            Cond::Switch(n) => builder.end(
+                TermKind::Branch { cond: Box::new(Cond::Switch(n)), then: otherwise, otherwise: then },
+                here(),
+            ),
             other => split(builder, other.negated(), then, otherwise, site, first),
         },
-        simple => builder.end(TermKind::Branch { cond: simple, then, otherwise }, here()),
+        simple => builder.end(TermKind::Branch { cond: Box::new(simple), then, otherwise }, here()),
     }
 }
 
@@ -158,7 +160,7 @@ impl Temps {
         let set = |value| StmtKind::Assign { target: Place::Var(temp), value: Expr::Number(value) };
         builder.push(set(0.0), site());
         let (then, otherwise) = (builder.fresh(), builder.fresh());
-        builder.end(TermKind::Branch { cond, then, otherwise }, site());
+        builder.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, site());
         builder.start(then);
         builder.push(set(1.0), site());
         builder.start(otherwise);

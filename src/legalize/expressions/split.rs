@@ -114,7 +114,9 @@ impl Cutter<'_> {
             at += self.lay(&mut block.stmts, at, skip) + 1;
         }
         rewrite::terminator(&mut block.term.kind, &mut |e, position| self.whole(e, position));
-        if let TermKind::Branch { cond: Cond::Compare(_, a, b), .. } = &mut block.term.kind {
+        if let TermKind::Branch { cond, .. } = &mut block.term.kind
+            && let Cond::Compare(_, a, b) = &mut **cond
+        {
             self.sides(a, b);
         }
         let end = block.stmts.len();

@@ -90,7 +90,8 @@ fn is_split(program: &Program, (at, place): (usize, usize)) -> bool {
 /// The only block and statement with a sequence number.
 fn find(program: &Program, number: u32) -> Result<(usize, usize), String> {
     let mut all = program.blocks.iter().enumerate().flat_map(|(at, block)| {
-        let with = block.stmts.iter().enumerate().filter(|(_, stmt)| stmt.site.sequence == Some(number));
+        let with =
+            block.stmts.iter().enumerate().filter(|(_, stmt)| stmt.site.sequence.get() == Some(number));
         with.map(move |(place, _)| (at, place))
     });
     match (all.next(), all.next()) {

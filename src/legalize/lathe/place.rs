@@ -43,7 +43,7 @@ impl Place {
     /// Comes to a statement: the first block of a contour begins where nobody knows, as several cycles may read it.
     pub fn enter(&mut self, stmt: &Stmt) {
         if let Some((first, last)) = self.read
-            && stmt.site.sequence == Some(first)
+            && stmt.site.sequence.get() == Some(first)
         {
             self.inside = Some((last, self.at, self.passes));
             self.at = At::default();
@@ -58,7 +58,7 @@ impl Place {
             _ => *self = Self::default(),
         }
         if let Some((last, at, passes)) = self.inside
-            && stmt.site.sequence == Some(last)
+            && stmt.site.sequence.get() == Some(last)
         {
             (self.at, self.passes, self.inside) = (at, passes, None);
         }

@@ -88,7 +88,7 @@ fn contours_elsewhere(module: &Module, facts: &ModalFacts) -> Vec<(usize, Span, 
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
                 // A first block that says its mode is read alike from everywhere.
                 let says = nc.ops().any(|op| op.group() == Group::Distance);
-                if let Some(number) = stmt.site.sequence.filter(|_| !says) {
+                if let Some(number) = stmt.site.sequence.get().filter(|_| !says) {
                     begun.insert(number, before);
                 }
                 if nc.ops().any(Op::reads_contour) {

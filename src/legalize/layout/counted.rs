@@ -49,7 +49,7 @@ pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
 /// True where each number is larger than the one before.
 fn grow(program: &Program) -> bool {
     let mut last = None;
-    program.blocks.iter().flat_map(sites).filter_map(|site| site.sequence).all(|number| {
+    program.blocks.iter().flat_map(sites).filter_map(|site| site.sequence.get()).all(|number| {
         let grows = last.is_none_or(|last| last <= number);
         last = Some(number);
         grows

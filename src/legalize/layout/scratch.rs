@@ -292,7 +292,7 @@ fn rename(program: &mut Program, these: &BTreeSet<Var>) {
                 && let Some(temp) = temps.get(var)
             {
                 *var = *temp;
-                stmt.site.sequence = None;
+                stmt.site.sequence = None.into();
             }
         }
         block.term.kind.exprs_mut(&mut change);

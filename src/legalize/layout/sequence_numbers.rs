@@ -21,7 +21,7 @@ pub fn run(module: &mut Module, _: &mut Context<'_>) {
                 Some(stmt) => &mut stmt.site,
                 None => &mut block.term.site,
             };
-            site.sequence = number;
+            site.sequence = number.into();
         }
     }
 }
@@ -86,8 +86,8 @@ fn moves(program: &Program) -> Vec<(At, Option<u32>)> {
             match &mut head {
                 Some((first, one, number)) if one.span == site.span && !site.span.is_empty() => {
                     if site.sequence.is_some() && number.is_none() {
-                        *number = site.sequence;
-                        found.push((*first, site.sequence));
+                        *number = site.sequence.get();
+                        found.push((*first, site.sequence.get()));
                     }
                     if site.sequence.is_some() {
                         found.push((here, None));
@@ -96,9 +96,9 @@ fn moves(program: &Program) -> Vec<(At, Option<u32>)> {
                 _ => {
                     let first = first_of(&before, thing).unwrap_or(here);
                     if first != here && site.sequence.is_some() {
-                        found.extend([(first, site.sequence), (here, None)]);
+                        found.extend([(first, site.sequence.get()), (here, None)]);
                     }
-                    head = Some((first, site, site.sequence));
+                    head = Some((first, site, site.sequence.get()));
                 }
             }
             before.clear();

@@ -145,7 +145,7 @@ fn write(program: &mut Program, source: &Control, target: &Control) -> bool {
         for (at, run) in runs.iter().enumerate() {
             let (then, otherwise) = (builder.fresh(), builder.fresh());
             let cond = inside(&row, &runs, at);
-            builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
+            builder.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, SourceInfo::default());
             builder.start(then);
             let there = Place::Indirect(Bank::Numbered, Box::new(number(&row, *run)));
             builder.push(StmtKind::Assign { target: there, value: value.clone() }, skip.clone());

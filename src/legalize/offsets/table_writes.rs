@@ -180,7 +180,10 @@ fn lay(builder: &mut Builder, writes: Writes, site: SourceInfo) {
             let (full, after) = (builder.fresh(), builder.fresh());
             unless_skipped(builder, place.skip, after);
             let cond = Cond::Compare(Relation::Equal, value.clone(), Expr::Vacant);
-            builder.end(TermKind::Branch { cond, then: after, otherwise: full }, SourceInfo::default());
+            builder.end(
+                TermKind::Branch { cond: Box::new(cond), then: after, otherwise: full },
+                SourceInfo::default(),
+            );
             builder.start(full);
             after
         });

@@ -23,24 +23,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let source = context.source;
     let prefixes = source.prefixes();
     let shared = of_library(&prefixes, context);
+    let flags = flagged(context);
     // Where no message stops the machine, the operator is shown a text, stopped, and sets the register there.
     let sets = context.target.system_runs(Sys::StopMessage).next().is_none();
     // At a stop too, where its comment is shown.
     let stops = source.is(Question::MessageShowsComment);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let names = of_program(program, &shared, &prefixes, context);
+        // Most programs have none of their own: what the library has is not copied for each.
+        let own = (!program.held.is_empty()).then(|| {
+            let names = of_program(program, &shared, &prefixes, context);
+            let flagged = with_flags(program, &names, &flags, &prefixes);
+            (names, flagged)
+        });
+        let (names, flagged) = own.as_ref().map_or((&shared, &flags), |(names, flagged)| (names, flagged));
         if names.is_empty() {
             continue;
         }
-        let flagged = with_flags(program, &names, &prefixes, context);
-        let mut writer = Writer {
-            names: &names,
-            flagged: &flagged,
-            prefixes: &prefixes,
-            context,
-            index,
-            span: program.site.span,
-        };
+        let mut writer =
+            Writer { names, flagged, prefixes: &prefixes, context, index, span: program.site.span };
         writer.comments(&mut program.site.comments);
         for block in &mut program.blocks {
             let asks = before_questions(&block.stmts);
@@ -84,17 +84,21 @@ fn of_program(program: &Program, shared: &Names, prefixes: &[&str], context: &Co
 }
 
 /// The registers of variables that may be vacant on the source, and have flags.
+fn flagged(context: &Context<'_>) -> BTreeSet<String> {
+    let flagged =
+        context.registers.of.iter().filter(|(var, _)| context.registers.of.contains_key(&var.flag()));
+    flagged.map(|(_, register)| format!("{}{}", register.name, register.number)).collect()
+}
+
+/// Those and what a program holds.
 fn with_flags(
     program: &Program,
     names: &Names,
+    flags: &BTreeSet<String>,
     prefixes: &[&str],
-    context: &Context<'_>,
 ) -> BTreeSet<String> {
-    let shared =
-        context.registers.of.iter().filter(|(var, _)| context.registers.of.contains_key(&var.flag()));
-    let shared = shared.map(|(_, register)| format!("{}{}", register.name, register.number));
     let held = program.held.iter().filter_map(|(_, name)| key(name.strip_prefix(&flag_of(""))?, prefixes));
-    shared.chain(held.filter_map(|key| names.get(&key).cloned())).collect()
+    flags.iter().cloned().chain(held.filter_map(|key| names.get(&key).cloned())).collect()
 }
 
 /// A name, where it is nothing more than that.

@@ -73,7 +73,7 @@ fn sweep(first: u32, last: u32, site: &mut dyn FnMut() -> SourceInfo, builder: &
     let (head, body, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
     builder.start(head);
     let more = Cond::Compare(Relation::LessEqual, counter(), Expr::Number(f64::from(last)));
-    builder.end(TermKind::Branch { cond: more, then: body, otherwise: behind }, site());
+    builder.end(TermKind::Branch { cond: Box::new(more), then: body, otherwise: behind }, site());
     builder.start(body);
     let cell = Place::Indirect(Bank::Numbered, Box::new(counter()));
     builder.push(set(cell, Expr::Number(0.0)), site());

@@ -131,13 +131,13 @@ fn refuse(index: usize, place: Span, context: &mut Context<'_>) {
 
 /// Who calls whom.
 struct Calls {
-    names: BTreeMap<ProgramName, usize>,
+    names: HashMap<ProgramName, usize>,
     callees: Vec<BTreeSet<(usize, bool)>>,
 }
 
 impl Calls {
     fn of(module: &Module) -> Self {
-        let names: BTreeMap<ProgramName, usize> =
+        let names: HashMap<ProgramName, usize> =
             module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at))).collect();
         let called = |block: &Block| match &block.term.kind {
             TermKind::Call { call, .. } => match &call.callee {

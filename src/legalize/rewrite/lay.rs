@@ -18,7 +18,8 @@ pub(super) fn lay(builder: &mut Builder, prelude: Vec<PreStatement>, site: &Sour
                 if cond.may_alarm() {
                     unless_skipped(builder, site().skip, otherwise);
                 }
-                builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
+                builder
+                    .end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, SourceInfo::default());
                 builder.start(then);
                 builder.push(StmtKind::Assign { target: Place::Var(var), value }, site());
                 builder.start(otherwise);
@@ -28,7 +29,7 @@ pub(super) fn lay(builder: &mut Builder, prelude: Vec<PreStatement>, site: &Sour
                 unless_skipped(builder, site().skip, after);
                 builder.end(TermKind::Jump(head), SourceInfo::default());
                 builder.start(head);
-                let kind = TermKind::Branch { cond, then: body, otherwise: after };
+                let kind = TermKind::Branch { cond: Box::new(cond), then: body, otherwise: after };
                 builder.end(kind, SourceInfo::default());
                 builder.start(body);
                 lay(builder, steps, &site());
@@ -50,7 +51,7 @@ pub(in crate::legalize) fn unless_skipped(builder: &mut Builder, skip: Option<u8
     if let Some(level) = skip {
         let cond = Cond::Switch(level);
         builder.end_then(SourceInfo::default(), |otherwise| TermKind::Branch {
-            cond,
+            cond: Box::new(cond),
             then: after,
             otherwise,
         });

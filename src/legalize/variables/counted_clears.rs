@@ -74,7 +74,7 @@ impl Loop {
     fn of(program: &Program, head: BlockId, context: &Context<'_>) -> Option<Self> {
         let first = program.block(head).filter(|block| block.stmts.is_empty() && is_bare(block))?;
         let TermKind::Branch { cond, then: body, otherwise: behind } = &first.term.kind else { return None };
-        let Cond::Compare(Relation::LessEqual, Expr::Var(counter), Expr::Number(last)) = cond else {
+        let Cond::Compare(Relation::LessEqual, Expr::Var(counter), Expr::Number(last)) = &**cond else {
             return None;
         };
         let block = program.block(*body).filter(|block| is_bare(block) && *body != head)?;

@@ -102,7 +102,7 @@ fn write(builder: &mut Builder, switched: Switched, site: SourceInfo) {
     unless_skipped(builder, site.skip, after);
     let place = SourceInfo { span: site.span, ..SourceInfo::default() };
     let cond = Cond::Compare(Relation::Equal, value, Expr::Number(0.0));
-    builder.end(TermKind::Branch { cond, then: zero, otherwise: other }, site);
+    builder.end(TermKind::Branch { cond: Box::new(cond), then: zero, otherwise: other }, site);
     for (start, on) in [(zero, switched.inverted), (other, !switched.inverted)] {
         builder.start(start);
         builder.push(block(switched.number, on), place.clone());

@@ -37,7 +37,7 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
                     }
                     let place = Place::System(Sys::Output, [Expr::Number(number)].into());
                     let value = Expr::Number(f64::from(u8::from(on)));
-                    let sequence = stmt.site.sequence.filter(|_| !waits);
+                    let sequence = stmt.site.sequence.get().filter(|_| !waits).into();
                     let site = SourceInfo { sequence, ..stmt.site };
                     out.push(Stmt { kind: StmtKind::Assign { target: place, value }, site });
                 }

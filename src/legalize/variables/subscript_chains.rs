@@ -287,7 +287,7 @@ fn branches(
     for (number, vars) in &chain.choices[..count] {
         let (then, otherwise) = (builder.fresh(), builder.fresh());
         let cond = Cond::Compare(Relation::Equal, value.clone(), Expr::Number(f64::from(*number)));
-        builder.end(TermKind::Branch { cond, then, otherwise }, place.clone());
+        builder.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, place.clone());
         builder.start(then);
         lay(builder, Named { of: &chain.of, vars });
         builder.start(otherwise);

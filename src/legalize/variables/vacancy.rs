@@ -48,7 +48,8 @@ fn guard(program: &mut Program, vars: &[Var]) {
         let (set, next) = (BlockId(2 * at + 1), BlockId(2 * at + 2));
         let cond = Cond::Compare(Relation::Equal, Expr::Var(*var), Expr::Vacant);
         let zero = StmtKind::Assign { target: Place::Var(*var), value: Expr::Number(0.0) };
-        blocks.push(block(Stmts::new(), TermKind::Branch { cond, then: set, otherwise: next }));
+        blocks
+            .push(block(Stmts::new(), TermKind::Branch { cond: Box::new(cond), then: set, otherwise: next }));
         blocks.push(block(thin_vec![Stmt { kind: zero, site: SourceInfo::default() }], TermKind::Jump(next)));
     }
     put_first(program, blocks);

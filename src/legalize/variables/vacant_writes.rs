@@ -138,8 +138,10 @@ fn split(program: &mut Program, places: &BTreeSet<(BlockId, usize)>) {
                 {
                     let (empty, full, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
                     let cond = Cond::Compare(Relation::Equal, unsigned(&value).clone(), Expr::Vacant);
-                    builder
-                        .end(TermKind::Branch { cond, then: empty, otherwise: full }, SourceInfo::default());
+                    builder.end(
+                        TermKind::Branch { cond: Box::new(cond), then: empty, otherwise: full },
+                        SourceInfo::default(),
+                    );
                     builder.start(full);
                     builder.push(stmt.kind.clone(), stmt.site.clone());
                     builder.end(TermKind::Jump(behind), SourceInfo::default());

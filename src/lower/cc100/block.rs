@@ -95,7 +95,7 @@ impl Lowering<'_> {
             // A reader looks for what may change on the left.
             let pair = if tool.constant().is_some() { (number, tool) } else { (tool, number) };
             let cond = Cond::Compare(Relation::NotEqual, pair.0, pair.1);
-            self.build.end(TermKind::Branch { cond, then, otherwise }, site.clone());
+            self.build.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, site.clone());
             self.build.start(then);
         }
         self.push(StmtKind::Nc(nc), site);

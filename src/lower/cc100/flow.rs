@@ -78,14 +78,18 @@ impl Lowering<'_> {
         match known.as_ref().unwrap_or(target) {
             Target::Label(Label::Number(label)) => {
                 let then = self.target(*label, span);
-                self.build.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
+                self.build.end_then(site.clone(), |otherwise| TermKind::Branch {
+                    cond: Box::new(cond),
+                    then,
+                    otherwise,
+                });
             }
             Target::Computed(label) => {
                 let Some(value) = self.operand(label) else { return };
                 let shared = self.dispatches.iter().find(|(known, _)| *known == value).map(|(_, id)| *id);
                 let otherwise = self.build.fresh();
                 let then = shared.unwrap_or_else(|| self.build.fresh());
-                self.build.end(TermKind::Branch { cond, then, otherwise }, site.clone());
+                self.build.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, site.clone());
                 if shared.is_none() {
                     self.dispatch(value, then, site);
                 }
@@ -100,7 +104,7 @@ impl Lowering<'_> {
     fn dispatch(&mut self, value: Expr, id: BlockId, site: &SourceInfo) {
         self.build.start(id);
         let targets = self.labels.iter().map(|(number, id)| (*number, *id)).collect();
-        self.build.end(TermKind::Computed { value: value.clone(), targets }, site.clone());
+        self.build.end(TermKind::Computed { value: Box::new(value.clone()), targets }, site.clone());
         self.dispatches.push((value, id));
     }
 

@@ -129,7 +129,10 @@ impl Analysis for Settings {
 /// The relation of a jump on the register.
 fn jump(block: &Block) -> Option<Relation> {
     match &block.term.kind {
-        TermKind::Branch { cond: Cond::Compare(relation, Expr::Var(REGISTER), _), .. } => Some(*relation),
+        TermKind::Branch { cond, .. } => match &**cond {
+            Cond::Compare(relation, Expr::Var(REGISTER), _) => Some(*relation),
+            _ => None,
+        },
         _ => None,
     }
 }
@@ -157,9 +160,9 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
         }
         match (state.var, tested, &mut block.term.kind) {
             (Some(var), _, TermKind::Branch { cond, .. }) => {
-                *cond = Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0));
+                *cond = Box::new(Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0)));
             }
-            (None, Some(differs), TermKind::Branch { cond, .. }) => *cond = differs,
+            (None, Some(differs), TermKind::Branch { cond, .. }) => *cond = Box::new(differs),
             _ => seen = true,
         }
     }

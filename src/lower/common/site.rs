@@ -12,7 +12,7 @@ pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
     for item in &block.items {
         match &item.kind {
             // An inserted block has the number of the one before it, so none of its own.
-            ItemKind::Sequence { number, inserted } => site.sequence = (!inserted).then_some(*number),
+            ItemKind::Sequence { number, inserted } => site.sequence = (!inserted).then_some(*number).into(),
             ItemKind::Skip(level) if !words => site.skip = Some(level.unwrap_or(1)),
             ItemKind::Comment(comment) => {
                 let mut text = comment_text(comment.text, source);
@@ -20,6 +20,7 @@ pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
                 if matches!(comment.fence, Fence::Apostrophe | Fence::Star) {
                     text.drain(..text.len() - text.trim_start().len());
                 }
+                site.comments.reserve_exact(1);
                 site.comments.push(Comment { text, leading: !words });
             }
             ItemKind::EndOfBlock | ItemKind::MacroMark | ItemKind::Tape => {}

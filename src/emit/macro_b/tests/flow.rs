@@ -72,7 +72,7 @@ fn words_stand_behind_then_where_they_did_and_may() {
     let mut builder = Builder::new();
     let at = SourceInfo { comments: [comment("LAST", false)].into(), ..numbered(1, 10) };
     let (then, otherwise) = (builder.fresh(), builder.fresh());
-    builder.end(TermKind::Branch { cond: gt(1, 5.0), then, otherwise }, at.clone());
+    builder.end(TermKind::Branch { cond: Box::new(gt(1, 5.0)), then, otherwise }, at.clone());
     builder.start(then);
     builder.push(mv(1.0), at);
     builder.start(otherwise);
@@ -296,13 +296,13 @@ fn a_computed_jump_finds_every_number() {
     let program = |value| {
         let targets = vec![(10, BlockId(1)), (20, BlockId(2))];
         blocks([
-            (&[], vec![], TermKind::Computed { value, targets }),
+            (&[], vec![], TermKind::Computed { value, targets: targets.into() }),
             (&[10], vec![mv(1.0)], jump(2)),
             (&[20], vec![], END),
         ])
     };
-    fanuc(&program(v(1)), &["GOTO #1", "N10 X1.", "N20 M30"]);
-    fanuc(&program(add(v(1), n(10.0))), &["GOTO [#1+10]", "N10 X1.", "N20 M30"]);
+    fanuc(&program(Box::new(v(1))), &["GOTO #1", "N10 X1.", "N20 M30"]);
+    fanuc(&program(Box::new(add(v(1), n(10.0)))), &["GOTO [#1+10]", "N10 X1.", "N20 M30"]);
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn lines(numbers: &[Option<u32>], targets: &[u32]) -> Program {
         if let Some(number) = number {
             builder.label(Label::Number(*number));
         }
-        let site = SourceInfo { sequence: *number, ..site(at) };
+        let site = SourceInfo { sequence: (*number).into(), ..site(at) };
         builder.push(mv(f64::from(at + 1)), site);
     }
     for target in targets {
@@ -26,7 +26,7 @@ fn lines(numbers: &[Option<u32>], targets: &[u32]) -> Program {
 }
 
 fn branch_to(to: u32, otherwise: BlockId) -> TermKind {
-    TermKind::Branch { cond: gt(1, 0.0), then: BlockId(to), otherwise }
+    TermKind::Branch { cond: Box::new(gt(1, 0.0)), then: BlockId(to), otherwise }
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_number_that_the_control_does_not_take_becomes_a_comment() {
 fn numbers_that_are_fixed_are_kept_or_refused() {
     let program = |targets: Vec<(u32, BlockId)>| {
         blocks([
-            (&[], vec![], TermKind::Computed { value: v(1), targets }),
+            (&[], vec![], TermKind::Computed { value: Box::new(v(1)), targets: targets.into() }),
             (&[10, 20], vec![mv(1.0)], jump(2)),
             (&[10], vec![], END),
         ])
@@ -106,12 +106,16 @@ fn what_a_computed_jump_may_look_for_is_not_invented() {
     let jumping = |value: Expr, first: StmtKind| {
         let targets = vec![(20, BlockId(3))];
         let mut program = blocks([
-            (&[], vec![], TermKind::Branch { cond: gt(5, 3.0), then: BlockId(1), otherwise: BlockId(2) }),
+            (
+                &[],
+                vec![],
+                TermKind::Branch { cond: Box::new(gt(5, 3.0)), then: BlockId(1), otherwise: BlockId(2) },
+            ),
             (&[], vec![mv(1.0), mv(2.0)], jump(2)),
-            (&[], vec![first], TermKind::Computed { value, targets }),
+            (&[], vec![first], TermKind::Computed { value: Box::new(value), targets: targets.into() }),
             (&[20], vec![mv(2.0)], END),
         ]);
-        program.blocks[3].stmts[0].site.sequence = Some(20);
+        program.blocks[3].stmts[0].site.sequence = Some(20).into();
         program
     };
     let set = |value: f64| StmtKind::Assign { target: Place::Var(local(1)), value: Expr::Number(value) };
@@ -139,10 +143,10 @@ fn a_number_that_a_computed_jump_must_not_find_becomes_a_comment() {
     // On the source 6 is no label.
     let targets = vec![(20, BlockId(1))];
     let mut program = blocks([
-        (&[], vec![mv(1.0)], TermKind::Computed { value: v(7), targets }),
+        (&[], vec![mv(1.0)], TermKind::Computed { value: Box::new(v(7)), targets: targets.into() }),
         (&[20], vec![mv(2.0)], END),
     ]);
-    program.blocks[0].stmts[0].site.sequence = Some(6);
+    program.blocks[0].stmts[0].site.sequence = Some(6).into();
     fanuc(&program, &["(N6) X1.", "GOTO #7", "N20 X2.", "M30"]);
 }
 

@@ -164,7 +164,7 @@ fn site(at: u32) -> SourceInfo {
 
 /// A site with a sequence number.
 fn numbered(at: u32, sequence: u32) -> SourceInfo {
-    SourceInfo { sequence: Some(sequence), ..site(at) }
+    SourceInfo { sequence: Some(sequence).into(), ..site(at) }
 }
 
 fn comment(text: &str, leading: bool) -> Comment {
@@ -186,7 +186,7 @@ fn jump(to: u32) -> TermKind {
 }
 
 fn branch(cond: Cond, then: u32, otherwise: u32) -> TermKind {
-    TermKind::Branch { cond, then: BlockId(then), otherwise: BlockId(otherwise) }
+    TermKind::Branch { cond: Box::new(cond), then: BlockId(then), otherwise: BlockId(otherwise) }
 }
 
 const END: TermKind = TermKind::End { rewind: true };

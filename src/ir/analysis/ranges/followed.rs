@@ -41,7 +41,8 @@ pub(super) fn in_numbers(program: &Program) -> BTreeSet<Var> {
         }
         block.term.kind.exprs(&mut note);
         match &block.term.kind {
-            TermKind::Computed { value, .. } | TermKind::Return { to: Some(value) } => add(value, &mut found),
+            TermKind::Computed { value, .. } => add(value, &mut found),
+            TermKind::Return { to: Some(value) } => add(value, &mut found),
             TermKind::Call { call, .. } => numbered(call, &mut found),
             _ => {}
         }

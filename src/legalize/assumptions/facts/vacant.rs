@@ -16,11 +16,11 @@ impl Found<'_> {
         let Some(block) = blocks.first() else { return };
         let [equality, order, arithmetic] = VACANCY.map(|question| !self.is_told(question));
         let compares = || match &block.term.kind {
-            TermKind::Branch { cond: Cond::Compare(Relation::Equal | Relation::NotEqual, ..), .. } => {
-                equality
-            }
-            TermKind::Branch { cond: Cond::Compare(..), .. } => order,
-            TermKind::Branch { .. } => equality || order,
+            TermKind::Branch { cond, .. } => match &**cond {
+                Cond::Compare(Relation::Equal | Relation::NotEqual, ..) => equality,
+                Cond::Compare(..) => order,
+                _ => equality || order,
+            },
             _ => false,
         };
         if !arithmetic && !compares() {

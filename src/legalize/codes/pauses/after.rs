@@ -4,8 +4,9 @@ use crate::canon::{Group, Op, Role, Running};
 use crate::ir::{BlockId, Call, Callee, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::{Modal, ModalFacts};
 use crate::syntax::ProgramName;
+use foldhash::HashMap;
 use std::cell::OnceCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// What a run of statements does about what runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,7 @@ pub(super) struct After<'m> {
     /// By program and block: the steps of its statements by their numbers, for spindle and coolant, and its end. Few
     /// programs are asked for.
     programs: Vec<OnceCell<Vec<Steps>>>,
-    by_name: BTreeMap<&'m ProgramName, usize>,
+    by_name: HashMap<&'m ProgramName, usize>,
 }
 
 /// The steps of a block's statements, and how it ends.

@@ -275,7 +275,10 @@ impl Writer<'_, '_> {
         let (head, body, after) = (builder.fresh(), builder.fresh(), builder.fresh());
         builder.start(head);
         let cond = Cond::Compare(Relation::Greater, Expr::Var(left), Expr::Number(0.0));
-        builder.end(TermKind::Branch { cond, then: body, otherwise: after }, SourceInfo::default());
+        builder.end(
+            TermKind::Branch { cond: Box::new(cond), then: body, otherwise: after },
+            SourceInfo::default(),
+        );
         builder.start(body);
         self.moves(builder, words, found, site);
         builder
@@ -306,7 +309,7 @@ impl Writer<'_, '_> {
         let mut all: Vec<Cond> = place.iter().map(|word| vacant(word)).collect();
         let cond = if all.len() == 1 { all.swap_remove(0) } else { Cond::And(all) };
         let (then, otherwise) = (builder.fresh(), builder.fresh());
-        builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
+        builder.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, SourceInfo::default());
         builder.start(otherwise);
         Some(then)
     }

@@ -45,7 +45,7 @@ impl Pen<'_> {
     /// Sets a variable under a condition.
     fn set_if(&mut self, cond: Cond, var: Var, value: Expr) {
         let (then, otherwise) = (self.builder.fresh(), self.builder.fresh());
-        self.builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
+        self.builder.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, SourceInfo::default());
         self.builder.start(then);
         self.set(var, value);
         self.builder.start(otherwise);
@@ -85,7 +85,10 @@ impl Pen<'_> {
         self.feeds = None;
         self.go(true, read(next));
         let cond = compare(Relation::LessEqual, read(next), read(back));
-        self.builder.end(TermKind::Branch { cond, then: done, otherwise: again }, SourceInfo::default());
+        self.builder.end(
+            TermKind::Branch { cond: Box::new(cond), then: done, otherwise: again },
+            SourceInfo::default(),
+        );
         self.builder.start(again);
         if out {
             self.go(false, retract.clone());

@@ -125,7 +125,8 @@ impl Turn {
         };
         let branch = |builder: &mut Builder, relation, value, then| {
             let cond = Cond::Compare(relation, value, Expr::Number(0.0));
-            builder.end(TermKind::Branch { cond, then, otherwise: body }, SourceInfo::default());
+            builder
+                .end(TermKind::Branch { cond: Box::new(cond), then, otherwise: body }, SourceInfo::default());
         };
         let ahead = sum(cross(), mul(r.clone(), Expr::Number(ONE_PLACE)));
         branch(builder, Relation::Greater, ahead, head);

@@ -52,11 +52,8 @@ pub(super) fn run(module: &mut Module, facts: &ModalFacts, context: &mut Context
 /// The block of a change that a comparison of its tool leaves out, and whether the last T is what is compared.
 fn passed(program: &Program, id: BlockId) -> Option<(BlockId, bool)> {
     let block = |id: BlockId| program.blocks.get(id.0 as usize);
-    let TermKind::Branch { cond: Cond::Compare(relation, Expr::System(sys, subs), tool), then, otherwise } =
-        &block(id)?.term.kind
-    else {
-        return None;
-    };
+    let TermKind::Branch { cond, then, otherwise } = &block(id)?.term.kind else { return None };
+    let Cond::Compare(relation, Expr::System(sys, subs), tool) = &**cond else { return None };
     let called = match (sys, subs.first().and_then(Expr::constant)) {
         (Sys::ActiveTool, _) => false,
         (Sys::Address, Some(letter)) if letter == f64::from(ADDRESS_T) => true,

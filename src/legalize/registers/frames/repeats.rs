@@ -37,7 +37,7 @@ pub fn loops(program: &mut Program, wanted: impl Fn(&Call) -> bool) {
         let (head, body, after) = (builder.fresh(), builder.fresh(), builder.fresh());
         builder.start(head);
         let cond = Cond::Compare(Relation::Greater, Expr::Var(left), Expr::Number(0.0));
-        builder.end(TermKind::Branch { cond, then: body, otherwise: next }, span());
+        builder.end(TermKind::Branch { cond: Box::new(cond), then: body, otherwise: next }, span());
         builder.start(body);
         let one_less = Expr::binary(BinOp::Sub, Expr::Var(left), Expr::Number(1.0));
         builder.end(TermKind::Call { call, next: after }, term.site.clone());

@@ -138,11 +138,8 @@ impl Marks {
 
 /// The block that stands between `IF v EQ vacant` and what comes after it, if it is `v=0` alone, and the variable.
 fn makes_zero(program: &Program, kind: &TermKind) -> Option<(BlockId, Var)> {
-    let TermKind::Branch { cond: Cond::Compare(relation, Expr::Var(var), Expr::Vacant), then, otherwise } =
-        kind
-    else {
-        return None;
-    };
+    let TermKind::Branch { cond, then, otherwise } = kind else { return None };
+    let Cond::Compare(relation, Expr::Var(var), Expr::Vacant) = &**cond else { return None };
     let (set, past) = match relation {
         Relation::Equal => (*then, *otherwise),
         Relation::NotEqual => (*otherwise, *then),

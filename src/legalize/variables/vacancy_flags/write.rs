@@ -188,7 +188,10 @@ fn each_way(
     let (with, not) = (builder.fresh(), builder.fresh());
     let cond = Cond::Compare(Relation::LessEqual, Expr::Var(*flag), Expr::Number(0.0));
     let asked = site.as_ref().map(|site| SourceInfo { span: site.span, ..SourceInfo::default() });
-    builder.end(TermKind::Branch { cond, then: not, otherwise: with }, asked.unwrap_or_default());
+    builder.end(
+        TermKind::Branch { cond: Box::new(cond), then: not, otherwise: with },
+        asked.unwrap_or_default(),
+    );
     builder.start(with);
     each_way(nc, rest, without, site, builder, end);
     builder.start(not);

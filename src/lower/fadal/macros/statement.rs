@@ -86,12 +86,12 @@ impl<'b> Lowering<'b> {
         if let [Item { kind: ItemKind::Goto(target), .. }] = said.as_slice() {
             let then = self.jump_to(target, span)?;
             let otherwise = self.builder.fresh();
-            self.end(TermKind::Branch { cond, then, otherwise });
+            self.end(TermKind::Branch { cond: Box::new(cond), then, otherwise });
             self.builder.start(otherwise);
             return Some(());
         }
         let (then, otherwise) = (self.builder.fresh(), self.builder.fresh());
-        self.end(TermKind::Branch { cond, then, otherwise });
+        self.end(TermKind::Branch { cond: Box::new(cond), then, otherwise });
         self.builder.start(then);
         let mut whole = Some(());
         for item in said {

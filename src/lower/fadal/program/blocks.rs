@@ -71,7 +71,7 @@ impl<'b> Lowering<'b> {
         // What changes the flow is jumped over; the rest carries its switch.
         let over = skip.filter(|_| self.flows(block, codes)).map(|level| {
             let (body, next) = (self.builder.fresh(), self.builder.fresh());
-            self.end(TermKind::Branch { cond: Cond::Switch(level), then: next, otherwise: body });
+            self.end(TermKind::Branch { cond: Box::new(Cond::Switch(level)), then: next, otherwise: body });
             self.builder.start(body);
             self.site.skip = None;
             next

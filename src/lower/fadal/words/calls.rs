@@ -114,7 +114,7 @@ impl<'b> Lowering<'b> {
         let targets = if here && value.constant().is_none() { self.all_sequences(span) } else { Vec::new() };
         self.end(match targets.is_empty() {
             true => TermKind::Return { to: Some(value) },
-            false => TermKind::Computed { value, targets },
+            false => TermKind::Computed { value: Box::new(value), targets: targets.into() },
         });
         Some(())
     }
@@ -213,7 +213,7 @@ impl<'b> Lowering<'b> {
                 bound(Relation::GreaterEqual, number * 100 + 1),
                 bound(Relation::Less, number * 100 + 100),
             ]);
-            self.end(TermKind::Branch { cond, then, otherwise });
+            self.end(TermKind::Branch { cond: Box::new(cond), then, otherwise });
             self.builder.start(then);
             self.end(TermKind::Call { call: Box::new(call), next: after });
             self.builder.start(otherwise);

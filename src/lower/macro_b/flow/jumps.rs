@@ -52,7 +52,7 @@ impl<'a> Lowering<'a> {
         }
         let kind = match value.constant().and_then(crate::ir::eval::whole) {
             Some(number) => TermKind::Jump(self.target(number, span)),
-            None => TermKind::Computed { value, targets: self.all_targets(span) },
+            None => TermKind::Computed { value: Box::new(value), targets: self.all_targets(span).into() },
         };
         self.builder.end(kind, site.clone());
     }
@@ -66,7 +66,8 @@ impl<'a> Lowering<'a> {
         self.builder.start(hub);
         let targets = self.all_targets(span);
         let site = SourceInfo { span, ..SourceInfo::default() };
-        self.builder.end(TermKind::Computed { value: Expr::Var(HUB), targets }, site);
+        self.builder
+            .end(TermKind::Computed { value: Box::new(Expr::Var(HUB)), targets: targets.into() }, site);
     }
 
     /// `IF [..]` and what is done when it holds.
@@ -86,11 +87,15 @@ impl<'a> Lowering<'a> {
             (doing.next(), doing.next())
         {
             let then = self.target(*number, *span);
-            self.builder.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
+            self.builder.end_then(site.clone(), |otherwise| TermKind::Branch {
+                cond: Box::new(cond),
+                then,
+                otherwise,
+            });
             return;
         }
         let (then, otherwise) = (self.builder.fresh(), self.builder.fresh());
-        self.builder.end(TermKind::Branch { cond, then, otherwise }, site.clone());
+        self.builder.end(TermKind::Branch { cond: Box::new(cond), then, otherwise }, site.clone());
         self.builder.start(then);
         let motion = self.motion;
         self.items(body, site);
@@ -171,7 +176,11 @@ impl<'a> Lowering<'a> {
         };
         let then = self.target(number, site.span);
         let cond = Cond::Compare(Relation::Equal, input, Expr::Number(0.0));
-        self.builder.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
+        self.builder.end_then(site.clone(), |otherwise| TermKind::Branch {
+            cond: Box::new(cond),
+            then,
+            otherwise,
+        });
     }
 
     /// The state of the input with this number, counted from 0.

@@ -20,7 +20,10 @@ impl<'a> Lowering<'a> {
                 self.builder.start(head);
                 let cond = self.cond(condition);
                 let body = self.builder.fresh();
-                self.builder.end(TermKind::Branch { cond, then: body, otherwise: exit }, site.clone());
+                self.builder.end(
+                    TermKind::Branch { cond: Box::new(cond), then: body, otherwise: exit },
+                    site.clone(),
+                );
                 self.builder.start(body);
             }
             None => {

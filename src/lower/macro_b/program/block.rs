@@ -157,7 +157,8 @@ impl<'a> Lowering<'a> {
     fn on_switch(&mut self, level: u8, site: &SourceInfo, on: Option<&'a [Item]>, off: &'a [Item]) {
         let (otherwise, next) = (self.builder.fresh(), self.builder.fresh());
         let then = if on.is_some() { self.builder.fresh() } else { next };
-        self.builder.end(TermKind::Branch { cond: Cond::Switch(level), then, otherwise }, site.clone());
+        self.builder
+            .end(TermKind::Branch { cond: Box::new(Cond::Switch(level)), then, otherwise }, site.clone());
         let before = self.motion;
         let mut ways = [(otherwise, Some(off)), (then, on)];
         // The control comes to a `/GOTO` while the switch is off, so that the shorter text has the other

@@ -51,8 +51,8 @@ fn empty_blocks_are_kept() {
 fn sequence_numbers_stay_with_their_blocks() {
     let lowered = lowered("fanuc", "N25G0X1.\nN30M30");
     let (program, _) = &lowered.programs[0];
-    assert_eq!(program.blocks[0].stmts[0].site.sequence, Some(25));
-    assert_eq!(program.blocks[0].term.site.sequence, Some(30));
+    assert_eq!(program.blocks[0].stmts[0].site.sequence.get(), Some(25));
+    assert_eq!(program.blocks[0].term.site.sequence.get(), Some(30));
 }
 
 #[test]
