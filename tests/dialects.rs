@@ -133,7 +133,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[360, 184, 82, 19], [480, 39, 126, 18], [269, 3, 111, 40], [241, 0, 86, 36]]);
+    assert_eq!(counts, [[360, 190, 85, 20], [470, 43, 134, 18], [269, 3, 111, 40], [241, 0, 86, 36]]);
 }
 
 fn control(name: &str) -> Control {

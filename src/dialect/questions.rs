@@ -228,6 +228,10 @@ questions! {
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
     RoughingEnds "roughing.ends" OneOf(&["along", "levels", "unknown"]), "how the roughing of a contour ends: with a pass along it, always, or level by \
                                                     level, and along it only with an allowance for that pass", if "op:contour.turning";
+    HolePecks "hole.pecks" OneOf(&["plane", "clearance", "unknown"]), "how far a peck of a lathe's drilling cycle goes back: to its retract plane, or by a \
+                                                                        clearance", if "op:hole.face or op:hole.face.peck";
+    PolarWords "polar.words" OneOf(&["x.c", "x.y", "unknown"]), "the words of moves on a face while C follows them: X as a diameter and C as a length, or X \
+                                                                 as a radius and Y", if "op:interpolation.polar.on";
     MotionAfterCycle "motion.after.cycle" OneOf(&["kept", "unknown"]), "the interpolation in force when a drilling cycle has ended";
     CycleBlockRuns "cycle.block.runs" YES, "a drilling cycle's own block drills at the position in it", if "said";
     CyclePeckClearance "cycle.peck.clearance" NUMBER, "how far over the last depth a peck drill begins its next step, millimetres", if "said";

@@ -1,9 +1,14 @@
-//! Lathes: cycles in one block or two, contours, increments, and programs of the other kind of machine.
+//! Lathes: cycles in one block or two, contours, holes, increments, and programs of the other kind of machine.
 
 pub mod contours;
 pub mod counts;
 mod cycle_values;
 pub mod cycle_words;
+pub mod hole_codes;
+pub mod hole_returns;
+pub mod holes;
+pub mod interpolations;
+pub mod lone_steps;
 pub mod other_kind;
 pub mod place;
 pub mod roughing;

@@ -8,6 +8,7 @@ pub(super) mod check;
 pub(super) mod contour;
 mod finish;
 pub(super) mod groove;
+pub(super) mod holes;
 mod levels;
 pub(super) mod pass;
 mod profile;
@@ -90,6 +91,10 @@ pub(super) struct Lathe {
     pub thread: Form,
     /// What the block goes along in place of its own words.
     pub way: Option<Vec<shape::Piece>>,
+    /// Whether a word in incremental mode told the depth of the drilling cycle in force; none where a letter of its own did.
+    pub hole_by_mode: Option<bool>,
+    /// The last time of a wait, seconds.
+    pub last_dwell: Option<f64>,
     /// True after a cycle, until a code of motion stands in a block.
     pub after_cycle: bool,
 }
