@@ -30,7 +30,7 @@ const EFFORT: Effort = Effort {
     allowed_mm: 0.0,
 };
 
-const FANUC: &str = "machine=\"lathe\";units=\"metric\";decimal_point=\"calculator\"";
+const FANUC: &str = "machine=\"lathe\";units=\"metric\";decimal_point=\"calculator\";parameters.\"5101.2\"=1";
 const HAAS: &str = "haas[machine=\"lathe\";units=\"metric\";settings.73=\"0.5\";settings.22=\"0.5\";settings.86=\"0.05\";settings.95=\"0\";\
                     settings.99=\"0.05\"]";
 
@@ -71,7 +71,7 @@ fn program(source: &mut Source) -> String {
 const HOME: &str = "G0 X64. Z3.";
 
 fn part(source: &mut Source, number: u64, out: &mut String) {
-    let _ = match source.below(12) {
+    let _ = match source.below(16) {
         0 => {
             let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
             writeln!(out, "G90 X58. {end}{taper} F.2\nX56.\nX54.")
@@ -112,12 +112,30 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
         8 => writeln!(out, "G1 U-4. F.15\nW-8.\nX58. W-2.\nG4 {}", source.pick(&["P500", "U.5", "X1."])),
         9 => writeln!(
             out,
+            "G83 X40. C0. Z-20. R-2. {}F.1\nC90.\nC180.\nG80",
+            source.pick(&["", "P300 ", "P0 "])
+        ),
+        10 => writeln!(
+            out,
+            "G0 X50. C0.\nG83 {} R-1. Q5000 F.1\nC60. Q5000\nX44.{}\nG80",
+            source.pick(&["Z-18.", "W-16."]),
+            source.pick(&["", " Q4000"])
+        ),
+        11 => writeln!(
+            out,
+            "G0 Z-10. C0.\nG87 X50. {}R-1.5 {}F.1\nZ-14. C90.\nG80",
+            source.pick(&["", "P200 "]),
+            source.pick(&["", "Q3000 "])
+        ),
+        12 => writeln!(out, "G85 X30. C45. Z-12. R-1. F.08\nH30.{}\nG80", source.pick(&["", " K2", " K3"])),
+        13 => writeln!(
+            out,
             "G1 X60. F.2\nZ-{} {}\nX66. {}\nZ-9.",
             source.pick(&["4.", "6."]),
             source.pick(&["R.8", "I.5", ",C.5", ",R.6"]),
             source.pick(&["K-.5", "R-.4", ",R.5", ""])
         ),
-        10 => writeln!(
+        14 => writeln!(
             out,
             "G1 X{} ,A{}. F.2\nG0 X66.",
             source.pick(&["60.", "56."]),

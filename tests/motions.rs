@@ -167,9 +167,6 @@ fn difference_by(found: &[Move], wanted: &[Move], alike: impl Fn(&Move, &Move) -
     Some(format!("move {at} of {longest}\n  expected {:?}\n  found    {:?}", wanted.get(at), found.get(at)))
 }
 
-/// The lists of lathes whose cycles the emulated control refuses: those moves that it makes before are theirs.
-const REFUSED: &[&str] = &["lathe-drill.toml"];
-
 /// All expectations of mills and their files.
 fn expectations() -> Vec<(PathBuf, Expectation)> {
     expectations_of("tests/motions/expected")
@@ -227,17 +224,13 @@ fn lathes_move_as(folder: &str, least: usize) {
     let mut wrong = Vec::new();
     let mut counts: BTreeMap<String, (usize, usize)> = BTreeMap::new();
     for (path, expectation) in expectations_of(folder) {
-        let (mut wanted, mut ends) = (expectation.list(), expectation.ends.as_str());
+        let wanted = expectation.list();
         let (found, end) = moves(&expectation);
-        if REFUSED.iter().any(|name| path.ends_with(name)) {
-            wanted.truncate(found.len());
-            ends = "alarm";
-        }
         if let Some(difference) = difference(&found, &wanted) {
             wrong.push(format!("{}: {difference}", path.display()));
         }
-        if end != ends {
-            wrong.push(format!("{}: ends by {end}, not {ends}", path.display()));
+        if end != expectation.ends {
+            wrong.push(format!("{}: ends by {end}, not {}", path.display(), expectation.ends));
         }
         let count = counts.entry(expectation.control).or_default();
         *count = (count.0 + 1, count.1 + wanted.len());

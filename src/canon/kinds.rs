@@ -36,6 +36,7 @@ impl Op {
             CycleOff | CycleDrill | CycleDrillDwell | CyclePeck | CycleChipBreak | CycleTap
             | CycleTapLeft | CycleTapRigid | CycleTapByLead | CycleBore | CycleBoreStop | CycleBackBore
             | CycleBoreManual | CycleBoreDwell | CycleFineBore | CycleOther => Group::Cycle,
+            op if op.is_hole() => Group::Cycle,
             PlaneXy | PlaneZx | PlaneYz | PlaneOther | Wrap => Group::Plane,
             Absolute | Incremental => Group::Distance,
             FeedPerMinute | FeedPerTurn | FeedInverse => Group::FeedMode,
@@ -76,7 +77,20 @@ impl Op {
                 | CycleBoreDwell
                 | CycleFineBore
                 | CycleOther
-        )
+        ) || self.is_hole()
+    }
+
+    /// True for a drilling cycle of a lathe, which goes along Z or along X whatever the plane is.
+    pub const fn is_hole(self) -> bool {
+        use Op::*;
+        matches!(self, FaceHole | FaceDrill | FaceDrillDwell | FacePeck | FaceTap | FaceTapMain | FaceBore)
+            || self.is_side_hole()
+    }
+
+    /// True for one that goes along X.
+    pub const fn is_side_hole(self) -> bool {
+        use Op::*;
+        matches!(self, SideHole | SideDrill | SideDrillDwell | SidePeck | SideTap | SideBore)
     }
 
     /// True for a pass of a lathe, which goes to its end and back in each block while it is in force.
@@ -105,7 +119,16 @@ impl Op {
 
     /// True for a tapping cycle.
     pub const fn is_tap(self) -> bool {
-        matches!(self, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid | Op::CycleTapByLead)
+        matches!(
+            self,
+            Op::CycleTap
+                | Op::CycleTapLeft
+                | Op::CycleTapRigid
+                | Op::CycleTapByLead
+                | Op::FaceTap
+                | Op::FaceTapMain
+                | Op::SideTap
+        )
     }
 
     /// True for what axis words beside it belong to: a place in a table, an origin, a centre or a factor, and no move.
@@ -125,6 +148,7 @@ impl Op {
                 | ReadOffset
                 | WriteVariable
                 | Pole
+                | Cylinder
                 | ScaleOn
                 | MirrorOn
                 | RotateOn

@@ -177,6 +177,12 @@ super::vocabulary! {
         PolarOn = "polar.on",
         /// Polar coordinates off.
         PolarOff = "polar.off",
+        /// Moves on the face of a part are programmed in a plane of X and a length, and C follows.
+        PolarPlane = "interpolation.polar.on",
+        /// Ends that.
+        PolarPlaneOff = "interpolation.polar.off",
+        /// Moves on the side of a part of the radius of its word are programmed on its surface, and C follows; a radius of 0 ends that.
+        Cylinder = "interpolation.cylinder",
         /// Scaling on.
         ScaleOn = "scale.on",
         /// Scaling off.
@@ -247,6 +253,32 @@ super::vocabulary! {
         ThreadingSetup = "threading.setup",
         /// Cuts a thread in many passes.
         Threading = "threading",
+        /// Drills along Z with a live tool or the part: in pecks where its block has one, with a wait where one was told.
+        FaceHole = "hole.face",
+        /// Drills along Z, on a control with a code for each way.
+        FaceDrill = "hole.face.drill",
+        /// The same with a wait at the bottom.
+        FaceDrillDwell = "hole.face.drill.dwell",
+        /// Drills along Z in pecks.
+        FacePeck = "hole.face.peck",
+        /// Taps along Z.
+        FaceTap = "hole.face.tap",
+        /// Taps on the centre line with the spindle that turns the part.
+        FaceTapMain = "hole.face.tap.main",
+        /// Bores along Z, feed out.
+        FaceBore = "hole.face.bore",
+        /// Drills along X with a live tool: in pecks where its block has one, with a wait where one was told.
+        SideHole = "hole.side",
+        /// Drills along X, on a control with a code for each way.
+        SideDrill = "hole.side.drill",
+        /// The same with a wait at the bottom.
+        SideDrillDwell = "hole.side.drill.dwell",
+        /// Drills along X in pecks.
+        SidePeck = "hole.side.peck",
+        /// Taps along X.
+        SideTap = "hole.side.tap",
+        /// Bores along X, feed out.
+        SideBore = "hole.side.bore",
         /// A cycle that only this family of controls has; never carried across.
         CycleOther = "cycle.other",
         /// Absolute coordinates.

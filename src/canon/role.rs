@@ -68,8 +68,10 @@ super::vocabulary! {
         RadiusOffset = "offset.radius",
         /// Work offset: 0 none, 1 to 6 the standard six, 101 and up the additional ones from 1.
         WorkOffset = "wcs.number",
-        /// Retract plane of a drilling cycle.
+        /// Retract plane of a drilling cycle; along X of a lathe a diameter.
         CycleR = "cycle.r",
+        /// How far the retract plane of a hole lies from where its cycle began, with its sign: along X a radius.
+        CycleRStep = "cycle.r.step",
         /// Peck or shift of a drilling cycle.
         CycleQ = "cycle.q",
         /// Dwell at the bottom of a drilling cycle, milliseconds.
@@ -147,6 +149,8 @@ super::vocabulary! {
         /// How the passes of a thread go in: 1 one flank, constant area; 2 both flanks, constant area; 3 one flank, constant depth; 4
         /// both flanks, constant depth.
         ThreadInfeed = "thread.infeed",
+        /// Radius of the cylinder that a path is wound round.
+        CylinderRadius = "cylinder.radius",
         /// Dwell in milliseconds.
         DwellMs = "dwell.ms",
         /// Dwell in seconds.
@@ -360,6 +364,8 @@ impl Role {
                 | Role::ChamferNext
                 | Role::RoundNext
                 | Role::CycleR
+                | Role::CycleRStep
+                | Role::CylinderRadius
                 | Role::CycleQ
                 | Role::PeckFirst
                 | Role::PeckLess

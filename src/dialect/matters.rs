@@ -26,6 +26,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.contour.moves", "the cycles of contours move as docs/lathe.md says"),
     ("machine:lathe.contour.steps", "increments of a contour count from where the finishing began"),
     ("machine:lathe.groove.moves", "the cycles of grooves and pecks move as docs/lathe.md says"),
+    ("machine:lathe.hole.moves", "the drilling cycles of a lathe move as docs/lathe.md says"),
     ("machine:lathe.home.without.axes", "a return without axes takes all axes home at once"),
     ("machine:lathe.machine.rapid", "a move in machine coordinates is rapid"),
     (

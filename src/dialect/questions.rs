@@ -235,6 +235,10 @@ questions! {
     CornerLetters "corner.letters" OneOf(&["axes", "letters"]), "how a corner without a comma is written: I, K and R, or C, R and A", if "said";
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
+    HolePecks "hole.pecks" OneOf(&["plane", "clearance", "unknown"]), "how far a peck of a lathe's drilling cycle goes back: to its retract plane, or by a \
+                                                                        clearance", if "op:hole.face or op:hole.face.peck";
+    PolarWords "polar.words" OneOf(&["x.c", "x.y", "unknown"]), "the words of moves on a face while C follows them: X as a diameter and C as a length, or X \
+                                                                 as a radius and Y", if "op:interpolation.polar.on";
     MotionAfterCycle "motion.after.cycle" OneOf(&["kept", "unknown"]), "the interpolation in force when a drilling cycle has ended";
     CycleBlockRuns "cycle.block.runs" YES, "a drilling cycle's own block drills at the position in it", if "said";
     CyclePeckClearance "cycle.peck.clearance" NUMBER, "how far over the last depth a peck drill begins its next step, millimetres", if "said";

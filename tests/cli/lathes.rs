@@ -129,3 +129,25 @@ fn the_profiles_that_ship_are_lathes() {
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
     assert!(run.out.contains("P9020") && run.out.contains("T0101"), "{}", run.out);
 }
+
+/// Four holes on a face with the codes of a builder, by the pair of profiles that ships: the same names, other numbers.
+#[test]
+fn the_profiles_of_live_tools_that_ship_are_a_pair() {
+    let shop = Shop::with(&[(
+        "a.nc",
+        "O1\nT0909\nM76\nG28 H0\nG98\nM70 S2000\nG0 X2. Z.2 C0.\nM73\nG83 Z-.8 R-.1 Q2000 F10.\nG80\nM74\nC90.\nM73\nG83 Z-.8 R-.1 F10.\nG80\n\
+         M74\nM72\nM75\nG0 X8. Z4.\nM30\n",
+    )]);
+    let from = repository("machines/fanuc-live-tools.toml");
+    let to = repository("machines/haas-st-live-tools.toml");
+    let run =
+        shop.run(&format!("convert a.nc --from fanuc --to haas --machine {from} --machine {to} --out out"));
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    let made = shop.read("out/a.nc");
+    let made: Vec<&str> = made.lines().filter(|line| !line.contains("MACROGLOT")).collect();
+    assert_eq!(
+        made.join("\n"),
+        "O0001\nT0909\nM154\nG28 H0.\nG98\nM133 P2000\nG0 X2. Z0.2 C0.\nM14\nG83 Z-0.8 R0.1 Q0.2 F10.\nG80\nM15\nC90.\nM14\nG81 Z-0.8 R0.1 F10.\nG80\n\
+         M15\nM135\nM155\nG0 X8. Z4.\nM30",
+    );
+}

@@ -129,5 +129,6 @@ fn dwell(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         .unwrap_or(0.0)
         .max(0.0);
     machine.clock += seconds * 1000.0;
+    machine.lathe.last_dwell = Some(seconds);
     trace.push(EventKind::Dwell { seconds });
 }

@@ -1,7 +1,7 @@
 //! Drilling cycles: their planes, their repeats, where they run.
 
 use super::command::axis;
-use super::{Command, Machine, expand};
+use super::{Command, Machine, expand, lathe};
 use crate::canon::{Op, Role};
 use crate::control::entry::Drilling;
 use crate::control::outcome::Stop;
@@ -13,12 +13,12 @@ pub(super) struct Cycle {
     pub op: Op,
     pub initial: f64,
     /// Retract plane: the word, and whether it was incremental.
-    r: Option<(f64, bool)>,
+    pub r: Option<(f64, bool)>,
     /// Bottom: the word, and whether it was incremental.
-    z: Option<(f64, bool)>,
+    pub z: Option<(f64, bool)>,
     pub peck: Option<f64>,
     pub dwell: f64,
-    without_dwell: bool,
+    pub without_dwell: bool,
     pub first_peck: Option<f64>,
     pub less: f64,
     pub least: f64,
@@ -38,6 +38,9 @@ pub(super) struct Planes {
 }
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    if machine.rules.lathe {
+        return lathe::holes::run(machine, command, trace);
+    }
     let (first, second, along) = machine.plane.axes();
     let begins = command.ops.iter().rev().copied().find(|op| op.is_cycle());
     if let Some(op) = begins {
@@ -104,7 +107,7 @@ fn place_only(machine: &mut Machine, command: &Command, count: u32, trace: &mut 
 }
 
 /// The block without its word along the drilling axis, which is the depth.
-fn across(command: &Command, along: usize) -> Command {
+pub(super) fn across(command: &Command, along: usize) -> Command {
     let words = command.words.iter().copied().filter(|(role, _)| axis(*role) != Some(along));
     Command {
         ops: command.ops.clone(),
@@ -136,7 +139,8 @@ fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
         trace.push(EventKind::Other { operation: cycle.op, code: None });
         return Ok(());
     }
-    expand::hole(machine, &cycle, planes, trace);
+    let along = machine.plane.axes().2;
+    expand::hole(machine, &cycle, (planes, along), trace);
     Ok(())
 }
 
@@ -153,7 +157,8 @@ pub(super) fn at_turned_place(machine: &mut Machine, trace: &mut Trace) -> Resul
 }
 
 impl Cycle {
-    fn new(op: Op, initial: f64) -> Self {
+    /// A cycle that begins at a height.
+    pub(super) fn new(op: Op, initial: f64) -> Self {
         Self {
             op,
             initial,
@@ -205,7 +210,7 @@ impl Cycle {
 
     /// The planes; none without a bottom. Incremental, the retract plane counts from the initial
     /// one and the bottom from the retract plane.
-    fn planes(&self, mode: Option<bool>) -> Option<Planes> {
+    pub(super) fn planes(&self, mode: Option<bool>) -> Option<Planes> {
         let r = match self.r {
             Some((r, given)) if mode.unwrap_or(given) => self.initial + r,
             Some((r, _)) => r,

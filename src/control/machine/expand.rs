@@ -6,11 +6,16 @@ use crate::canon::Op;
 use crate::control::scenario::Axes;
 use crate::control::trace::{EventKind, FeedMode, Position, Spindle, Told, Trace};
 
-/// Drills where the machine stands over the hole, and leaves it as the return plane says.
-pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: &mut Trace) {
+/// Drills where the machine stands over the hole, along an axis, and leaves it as the return plane says.
+pub(super) fn hole(
+    machine: &mut Machine,
+    cycle: &Cycle,
+    (planes, along): (Planes, usize),
+    trace: &mut Trace,
+) {
     // The bottom may count from the retract plane, and that from the initial one.
     trace.rounded += 2.0 * machine.rounding.cycle;
-    let mut driver = Driver::new(machine, planes, trace);
+    let mut driver = Driver { machine, trace, planes, along };
     if cycle.op == Op::CycleBackBore {
         return driver.bore_back(cycle);
     }
@@ -26,12 +31,7 @@ struct Driver<'a> {
     along: usize,
 }
 
-impl<'a> Driver<'a> {
-    fn new(machine: &'a mut Machine, planes: Planes, trace: &'a mut Trace) -> Self {
-        let along = machine.plane.axes().2;
-        Self { machine, trace, planes, along }
-    }
-
+impl Driver<'_> {
     /// Says where the hole is: the tool stands at the plane that cutting starts from.
     fn tell(&mut self, cycle: &Cycle) {
         let at = Position(self.machine.position);

@@ -140,6 +140,8 @@ pub struct Rules {
     /// A roughing always ends with a pass along the contour; else with a level on its bottom, and along it only with an
     /// allowance for that (K5, K9 of docs/lathe.md).
     pub roughing_along: Fact<bool>,
+    /// A peck of a lathe's drilling cycle goes back to its retract plane, or by the clearance; none where nobody says it (Q7).
+    pub pecks_to_plane: Fact<Option<bool>>,
     /// The settings of a lathe.
     pub turning: Turning,
 }
@@ -245,6 +247,12 @@ impl Rules {
             shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),
             lathe: control.machine() == Machine::Lathe,
             roughing_along: fact(control, Question::RoughingEnds, word("along", "levels"), true),
+            pecks_to_plane: fact(
+                control,
+                Question::HolePecks,
+                |value| ["plane", "clearance"].contains(&value).then_some(Some(value == "plane")),
+                None,
+            ),
             turning: Turning::new(control),
         }
     }

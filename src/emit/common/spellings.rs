@@ -64,6 +64,8 @@ struct Letter {
     beside: Option<(char, bool)>,
     shifted: bool,
     literal_only: bool,
+    /// True where every code that has the role counts increments in it.
+    counted: bool,
 }
 
 /// What is known of an operand when the code is chosen.
@@ -124,6 +126,7 @@ impl<'c> Spellings<'c> {
                 beside: beside[role as usize],
                 shifted: row.is_some_and(|row| row.shift.contains_key(&role)),
                 literal_only: row.is_some_and(|row| !row.expression),
+                counted: counted(&all.codes, role),
             };
         }
         all
@@ -208,6 +211,11 @@ impl<'c> Spellings<'c> {
         self.letters.get(role as usize).is_some_and(|letter| letter.literal_only)
     }
 
+    /// True where the role counts least increments beside each code that has it.
+    pub fn is_counted(&self, role: Role) -> bool {
+        self.letters.get(role as usize).is_some_and(|letter| letter.counted)
+    }
+
     /// An arithmetic operator.
     pub fn binary(&self, op: BinOp) -> Operator<'c> {
         self.arithmetic.get(op as usize).copied().unwrap_or_default()
@@ -229,6 +237,15 @@ impl Code<'_> {
     pub fn is_m(&self) -> bool {
         self.text.starts_with('M')
     }
+}
+
+fn counted(codes: &[Code], role: Role) -> bool {
+    let words = codes.iter().flat_map(|code| code.words.iter().map(move |word| (code, word)));
+    let mut counts = words
+        .filter(|(_, (_, found))| *found == role)
+        .map(|(code, ((letter, _), _))| code.row.counts.contains(letter))
+        .peekable();
+    counts.peek().is_some() && counts.all(|counts| counts)
 }
 
 /// The meanings of [`BinOp`], in its order.

@@ -165,7 +165,8 @@ impl<'p> Emitter<'p> {
         if spellings.is_shifted(role, code) {
             return self.shifted(role, value, code);
         }
-        if code.is_some_and(|code| code.row.counts.contains(&letter.0)) {
+        let alone = code.is_none() && spellings.is_counted(role);
+        if alone || code.is_some_and(|code| code.row.counts.contains(&letter.0)) {
             return self.counted(role, value);
         }
         match value.constant() {

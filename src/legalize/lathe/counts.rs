@@ -11,8 +11,8 @@ use crate::legalize::features::Features;
 use crate::legalize::moves::increments::{Counted, Texts, each};
 
 /// The roles that count increments on some control.
-const ROLES: [Role; 5] =
-    [Role::GrooveX, Role::GrooveZ, Role::ThreadHeight, Role::ThreadFirst, Role::ThreadLeast];
+const ROLES: [Role; 6] =
+    [Role::GrooveX, Role::GrooveZ, Role::ThreadHeight, Role::ThreadFirst, Role::ThreadLeast, Role::CycleQ];
 
 /// Lengths that a control may take from a setting, which is a length: a count of increments must not meet it.
 const SET: [Role; 2] = [Role::CutRetract, Role::ThreadAllowance];
@@ -38,7 +38,7 @@ fn lengths(source: &Control, target: &Control) -> Vec<Role> {
 
 /// True where one counts on the target.
 pub fn counts_here(features: &Features, context: &Context<'_>) -> bool {
-    let stands = features.any_op(|op| op.is_lathe_cycle() || op.is_lathe_setup());
+    let stands = features.any_op(|op| op.is_lathe_cycle() || op.is_lathe_setup() || op.is_hole());
     stands && ROLES.iter().any(|role| counted(context.target, *role))
 }
 

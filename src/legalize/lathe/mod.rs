@@ -1,10 +1,15 @@
-//! Lathes: cycles in one block or two, contours, increments, machine coordinates, units, and programs of the other kind of machine.
+//! Lathes: cycles in one block or two, contours, holes, increments, machine coordinates, units, and programs of the other kind of machine.
 
 pub mod contours;
 pub mod corners;
 pub mod counts;
 mod cycle_values;
 pub mod cycle_words;
+pub mod hole_codes;
+pub mod hole_returns;
+pub mod holes;
+pub mod interpolations;
+pub mod lone_steps;
 pub mod other_kind;
 pub mod place;
 pub mod rapid_in_force;

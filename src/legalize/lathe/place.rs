@@ -12,6 +12,10 @@ pub struct Place {
     at: At,
     /// Whether a pass is in force, which each block with axis words runs; none where that is not known.
     passes: Option<bool>,
+    /// Whether a drilling cycle is in force, and whether it goes along X.
+    hole: Option<bool>,
+    /// True where every hole ends where its cycle began.
+    keeps_level: bool,
     /// The numbers of the first and the last block of the contour that a cycle read.
     read: Option<(u32, u32)>,
     /// Inside a contour: the number of its last block, and what was known where the cycle began.
@@ -25,6 +29,21 @@ struct At {
 }
 
 impl Place {
+    /// Nothing known yet, where every hole ends at the level at which its cycle began.
+    pub fn keeping_level() -> Self {
+        Self { keeps_level: true, ..Self::default() }
+    }
+
+    /// What is known where other ways come in.
+    pub fn forget(&mut self) {
+        *self = Self { keeps_level: self.keeps_level, ..Self::default() };
+    }
+
+    /// True while a drilling cycle is in force, as far as the blocks before say.
+    pub fn drills(&self) -> bool {
+        self.hole.is_some()
+    }
+
     /// X, a diameter.
     pub fn x(&self) -> Option<f64> {
         self.at.x
@@ -55,7 +74,7 @@ impl Place {
         match &stmt.kind {
             StmtKind::Nc(nc) => self.words(nc, stmt.site.skip.is_some()),
             StmtKind::Comment | StmtKind::Assign { .. } => {}
-            _ => *self = Self::default(),
+            _ => self.forget(),
         }
         if let Some((last, at, passes)) = self.inside
             && stmt.site.sequence.get() == Some(last)
@@ -66,7 +85,7 @@ impl Place {
 
     fn words(&mut self, nc: &Nc, skipped: bool) {
         if nc.items.iter().any(|item| matches!(item, NcItem::Code(..))) {
-            *self = Self::default();
+            self.forget();
             return;
         }
         if nc.ops().any(Op::reads_contour) {
@@ -79,6 +98,9 @@ impl Place {
         if nc.ops().any(|op| op.is_lathe_cycle() || op.is_lathe_setup()) {
             return;
         }
+        if let Some(op) = nc.ops().filter(|op| matches!(op.group(), Group::Motion | Group::Cycle)).last() {
+            self.hole = op.is_hole().then_some(op.is_side_hole());
+        }
         // A new offset or shift moves the coordinates under the tool.
         if !nc.ops().all(is_plain) {
             self.at = At::default();
@@ -86,6 +108,9 @@ impl Place {
         }
         if !nc.names_axis() {
             return;
+        }
+        if let Some(side) = self.hole {
+            return self.drill(nc, side, skipped);
         }
         match self.passes {
             Some(true) => {}
@@ -98,6 +123,20 @@ impl Place {
             }
             _ => self.at = At::default(),
         }
+    }
+
+    /// A hole is at the place of its block, and ends at the level of before, if at all.
+    fn drill(&mut self, nc: &Nc, side: bool, skipped: bool) {
+        if skipped {
+            self.at = At::default();
+            return;
+        }
+        let level = if side { self.at.x } else { self.at.z };
+        nc.items.iter().for_each(|item| self.word(item));
+        if nc.word(Role::Repeat).is_some() {
+            self.at = At::default();
+        }
+        *(if side { &mut self.at.x } else { &mut self.at.z }) = level.filter(|_| self.keeps_level);
     }
 
     fn word(&mut self, item: &NcItem) {

@@ -8,7 +8,7 @@ use super::place::Place;
 use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
@@ -115,27 +115,29 @@ const HELP: &str =
 
 /// Writes the mode that each block's words need.
 pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let mut found = Vec::new();
+    let (mut found, mut changed) = (Vec::new(), Vec::new());
     let is_modal = |stmt: &Stmt| matches!(stmt.kind, StmtKind::ModalCall(_));
     let mut stmts = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|block| &block.stmts);
     let calls_after_moves = stmts.any(is_modal);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let straight = entered_straight(program);
-        let (mut mode, mut place) = (None, Place::default());
+        let (mut mode, mut place) = (None, Place::keeping_level());
         for (block, straight) in program.blocks.iter_mut().zip(straight) {
             if !straight {
-                (mode, place) = (None, Place::default());
+                mode = None;
+                place.forget();
             }
             for stmt in &mut block.stmts {
                 // A macro that runs after each move may leave the tool elsewhere.
                 if calls_after_moves {
-                    place = Place::default();
+                    place.forget();
                 }
                 place.enter(stmt);
                 let before = place;
                 place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-                if both_kinds(nc) || before.in_contour() {
+                // The depth of a hole counts from its plane, not from where the tool stands.
+                if !place.drills() && (both_kinds(nc) || before.in_contour()) {
                     to_places(nc, before);
                 }
                 // The blocks of a contour are places: the cycle must not read them under G91.
@@ -147,6 +149,9 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     continue;
                 }
                 let needed = if has_steps(nc) { Op::Incremental } else { Op::Absolute };
+                if place.drills() && !nc.ops().any(Op::is_hole) && mode != Some(needed) {
+                    changed.push((index, stmt.site.span));
+                }
                 swap(nc, |(whole, step)| (step, whole));
                 if mode != Some(needed) {
                     nc.items.insert(0, NcItem::Op(needed));
@@ -158,6 +163,9 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 }
             }
         }
+    }
+    for (index, span) in changed {
+        context.rests_on_target(index, span, Question::CyclePlanesFrozen);
     }
     for (index, span) in found {
         let what = "a place and an increment in one block, and where the tool stands is not known here: the target has one mode for \

@@ -1,9 +1,32 @@
 //! The passes of lathes, in the order they run in.
 
 use super::Pass;
+use crate::canon::{Op, Role};
+use crate::dialect::Machine;
+use crate::legalize::Context;
 use crate::legalize::lathe::{
-    contours, corners, counts, cycle_words, rapid_in_force, roughing, steps, unit_agrees, x_counts,
+    contours, corners, counts, cycle_words, hole_codes, hole_returns, holes, interpolations, lone_steps,
+    rapid_in_force, roughing, steps, unit_agrees, x_counts,
 };
+
+/// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
+pub(super) fn is_mill(context: &Context<'_>) -> bool {
+    context.target.machine() == Machine::Mill
+}
+
+pub(super) const HOLE_CODES: Pass = Pass::reports(
+    "hole-codes",
+    "refuses M codes and tool words in the drilling blocks of lathes",
+    hole_codes::run,
+)
+.when(|c, _| c.any_op(Op::is_hole));
+
+pub(super) const INTERPOLATIONS: Pass = Pass::reports(
+    "interpolations",
+    "refuses milling with the C axis that the target is told otherwise",
+    interpolations::run,
+)
+.when(interpolations::concerns);
 
 pub(super) const LATHE: &[Pass] = &[
     Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)
@@ -12,9 +35,6 @@ pub(super) const LATHE: &[Pass] = &[
     Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
         .when(steps::mode_to_letters)
         .needs(&["start", "beside-moves"]),
-    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
-        .when(steps::letters_to_mode)
-        .needs(&["beside-moves"]),
     Pass::edits(
         "lathe-lengths",
         "pecks and depths of a lathe's cycles that count become lengths",
@@ -22,6 +42,28 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(counts::counts_there)
     .needs(&["units"]),
+    Pass::edits(
+        "hole-returns",
+        "holes of a lathe end where they ended, where only one control chooses that",
+        hole_returns::run,
+    )
+    .when(hole_returns::concerns)
+    .needs(&["steps", "hole-codes"]),
+    Pass::edits("holes", "drilling cycles of a lathe get the target's planes and codes", holes::run)
+        .when(holes::concerns)
+        .needs(&["steps", "lathe-lengths", "hole-returns"]),
+    Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
+        .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
+    Pass::each(
+        "lone-steps",
+        "increments that have no letter there count from where the block before ended",
+        lone_steps::run,
+    )
+    .when(lone_steps::concerns)
+    .needs(&["steps", "holes"]),
+    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
+        .when(steps::letters_to_mode)
+        .needs(&["beside-moves", "holes"]),
     Pass::each(
         "lathe-cycles",
         "depths, ways back and forms of a lathe's cycles stand where the target takes them from",

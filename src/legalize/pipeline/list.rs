@@ -1,6 +1,7 @@
 //! The passes, in the order they run in.
 
 use super::late::{ENTRY, EXPRESSIONS, LAYOUT, OPERATOR, REGISTERS};
+use super::lathe::is_mill;
 use super::moves::MOVES;
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
@@ -144,6 +145,8 @@ const SOURCE: &[Pass] = &[
     .when(|c, _| c.has(Feature::Computed)),
     Pass::edits("other-kind", "refuses programs of the other kind of machine", other_kind::run)
         .when(other_kind::concerns),
+    super::lathe::HOLE_CODES,
+    super::lathe::INTERPOLATIONS,
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];
@@ -329,14 +332,14 @@ const CYCLES: &[Pass] = &[
         .when(waits::concerns)
         .needs(&["state", "lookahead"]),
     Pass::rewrites("hole-moves", "holes become moves, where cycles take no planes", hole_moves::run)
-        .when(|c, context| drills(c) && hole_moves::replaces(context.target))
+        .when(|c, context| is_mill(context) && drills(c) && hole_moves::replaces(context.target))
         .needs(&["modal-calls", "units", "tool-lengths"])
         .changes_flow(),
     Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell))
         .needs(&["hole-moves"]),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
-        .when(|c, context| drills(c) && !hole_moves::replaces(context.target)),
+        .when(|c, context| is_mill(context) && drills(c) && !hole_moves::replaces(context.target)),
     Pass::rewrites(
         "cycle-ends",
         "cycles that motion does not end there are ended before it",
@@ -356,7 +359,8 @@ const CYCLES: &[Pass] = &[
     .needs(&["cycle-here"]),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
         .when(|c, context| {
-            cycle_words::ROLES.iter().any(|role| c.role(*role)) && !hole_moves::replaces(context.target)
+            let words = cycle_words::ROLES.iter().any(|role| c.role(*role));
+            is_mill(context) && words && !hole_moves::replaces(context.target)
         })
         .needs(&["dwell", "cycle-here"]),
 ];

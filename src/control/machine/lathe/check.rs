@@ -41,7 +41,8 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
 
 fn is_refused(op: Op) -> bool {
     use Op::*;
-    let shapes = matches!(op, ScaleOn | MirrorOn | RotateOn | PolarOn | Pole | Wrap | PlaneOther);
+    let shapes = matches!(op, ScaleOn | MirrorOn | RotateOn | PolarOn | Pole | Wrap | PlaneOther)
+        || matches!(op, PolarPlane | PolarPlaneOff | Cylinder);
     let offsets =
         matches!(op, LengthPlus | LengthMinus | OffsetPlus | OffsetMinus | OffsetPlus2 | OffsetMinus2);
     shapes || offsets || matches!(op, ArcTangent | ReferenceFrom | Home | ProbeOther | FeedInverse)
@@ -59,8 +60,10 @@ fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
     if steps && command.ops.iter().any(|op| matches!(op, Op::WriteWork | Op::LocalShift)) {
         return Err(Stop::unnamed("increments of a zero"));
     }
-    let turned = [Role::C, Role::StepC];
-    let turned = has(&turned).filter(|_| !machine.rules.turning.has_c);
+    // Where a block cuts, C may be a chamfer; in rapid, in a drilling cycle or alone it is the axis (Q4).
+    let drills = machine.cycle.is_some() || command.ops.iter().any(|op| op.is_cycle());
+    let cuts = motion != Op::Rapid && !drills && has(&[Role::X, Role::Z, Role::StepX, Role::StepZ]).is_some();
+    let turned = has(&[Role::C]).filter(|_| cuts && !machine.rules.turning.has_c);
     let axis = has(&[Role::A, Role::B, Role::E, Role::U, Role::V, Role::W]).or(turned);
     match axis {
         Some(role) => Err(Stop::unnamed(format!("{role}, which the emulated lathe does not have"))),

@@ -9,6 +9,7 @@ pub(super) mod contour;
 pub(super) mod corner;
 mod finish;
 pub(super) mod groove;
+pub(super) mod holes;
 mod levels;
 pub(super) mod pass;
 mod profile;
@@ -93,6 +94,10 @@ pub(super) struct Lathe {
     pub way: Option<Vec<shape::Piece>>,
     /// Where the next block must go, after a corner that says so.
     pub turn: Option<corner::Turn>,
+    /// Whether a word in incremental mode told the depth of the drilling cycle in force; none where a letter of its own did.
+    pub hole_by_mode: Option<bool>,
+    /// The last time of a wait, seconds.
+    pub last_dwell: Option<f64>,
     /// True after a cycle, until a code of motion stands in a block.
     pub after_cycle: bool,
 }

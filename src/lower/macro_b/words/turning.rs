@@ -99,8 +99,11 @@ impl Lowering<'_> {
     fn check_line(&mut self, nc: &Nc, span: Span) {
         let listed =
             |axis: Axis| self.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
-        // A drilling cycle of live tools has its own words.
-        let other = nc.items.iter().any(|item| matches!(item, NcItem::Code(..)));
+        // In a drilling cycle it is the axis.
+        let drills = |op: Op| op.is_cycle();
+        let other = nc.items.iter().any(|item| matches!(item, NcItem::Code(..)))
+            || nc.ops().any(drills)
+            || self.motion.code.and_then(|id| self.codes.get(id)?.row).is_some_and(|row| drills(row.op));
         let cuts = Role::STEPS.iter().any(|(whole, step)| {
             !matches!(whole, Role::C) && (nc.word(*whole).is_some() || nc.word(*step).is_some())
         });

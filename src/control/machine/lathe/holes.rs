@@ -1,0 +1,148 @@
+//! Drilling cycles of a lathe, along Z or along X (Q5 to Q9).
+
+use super::sense;
+use crate::canon::{Op, Role};
+use crate::control::machine::cycle::{Cycle, across};
+use crate::control::machine::{Command, Machine, expand};
+use crate::control::outcome::Stop;
+use crate::control::trace::Trace;
+
+/// The axes that holes go along, as places in a position.
+const ALONG_X: usize = 0;
+const ALONG_Z: usize = 2;
+
+/// Drills, if the block asks for it, at each of the places that its repeats come to.
+pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let begins = command.ops.iter().rev().copied().find(|op| op.is_cycle());
+    let Some(op) = begins.or(machine.cycle()) else {
+        return Err(Stop::unnamed("no drilling cycle is in force"));
+    };
+    let along = if op.is_side_hole() { ALONG_X } else { ALONG_Z };
+    let places = command.axes().any(|(axis, _)| axis != along);
+    let depths = [Role::CycleR, Role::CycleRStep].iter().any(|role| command.word(*role).is_some())
+        || command.axes().any(|(axis, _)| axis == along);
+    if begins.is_none() && !places && !depths {
+        return Ok(());
+    }
+    check(machine, command, op)?;
+    if begins.is_some() {
+        let height = machine.frame.program(&machine.position)[along];
+        machine.cycle.get_or_insert_with(|| Cycle::new(op, height)).op = op;
+    }
+    read(machine, command, (along, begins.is_some()));
+    machine.round_cycle(command, along, begins.is_some());
+    machine.round_in(&across(command, along), trace);
+    trace.doubt("machine:lathe.hole.moves");
+    for turn in 0..command.number(Role::Repeat).unwrap_or(1) {
+        if turn > 0 {
+            machine.round_in(&across(command, along), trace);
+        }
+        let mut to = machine.target(&across(command, along));
+        to[along] = machine.position[along];
+        machine.rapid_to(to, trace);
+        hole(machine, along, trace)?;
+        if trace.is_full() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// What is refused (Q8).
+fn check(machine: &Machine, command: &Command, op: Op) -> Result<(), Stop> {
+    let refused = |what: &str| Err(Stop::unnamed(what));
+    if !op.is_hole() {
+        return refused("a drilling cycle that the emulated lathe does not run");
+    }
+    let beside = |op: &Op| {
+        op.auxiliary().is_some()
+            || matches!(op, Op::Stop | Op::OptionalStop | Op::Builder | Op::Act | Op::MachineSpecific)
+    };
+    if command.ops.iter().any(beside) || command.word(Role::Turret).is_some() {
+        return refused("an M code or a tool word in a drilling block");
+    }
+    if machine.cycle().is_some_and(|before| before.is_side_hole() != op.is_side_hole()) {
+        return refused("a drilling cycle along one axis while one along the other is in force");
+    }
+    if command.number(Role::Repeat) == Some(0) {
+        return refused("a drilling cycle with no repeats");
+    }
+    let step = if op.is_side_hole() { Role::StepX } else { Role::StepZ };
+    let absolute = command.word(Role::CycleR).is_some()
+        || machine.cycle.as_ref().and_then(|cycle| cycle.r).is_some_and(|(_, by_step)| !by_step);
+    if absolute && command.word(step).is_some() {
+        return refused("a depth as an increment, where the retract plane is a place");
+    }
+    Ok(())
+}
+
+/// Takes the block's words; those it does not have stay, but for a peck of a code that drills without it too (Q7).
+fn read(machine: &mut Machine, command: &Command, (along, begins): (usize, bool)) {
+    let (unit, incremental) = (machine.unit(), machine.incremental);
+    // A radius is half of the coordinate.
+    let radius = unit / machine.real(along);
+    let Some(cycle) = &mut machine.cycle else { return };
+    if let Some(step) = command.word(Role::CycleRStep) {
+        cycle.r = Some((step * radius, true));
+    }
+    if let Some(place) = command.word(Role::CycleR) {
+        cycle.r = Some((place * unit, false));
+    }
+    if let Some((_, depth, step)) = command.places().filter(|(axis, ..)| *axis == along).last() {
+        cycle.z = Some((depth * unit, step || incremental));
+        machine.lathe.hole_by_mode = (!step).then_some(incremental);
+    }
+    let peck = command.word(Role::CycleQ).map(|peck| peck * radius);
+    let lasts = matches!(cycle.op, Op::FacePeck | Op::SidePeck);
+    cycle.peck = peck.or(cycle.peck.filter(|_| lasts));
+    // On a control whose P lasts across codes a cycle without one takes the last (S10).
+    let told = matches!(cycle.op, Op::FaceDrillDwell | Op::FacePeck | Op::SideDrillDwell | Op::SidePeck);
+    let last = machine.lathe.last_dwell.filter(|_| begins && told).unwrap_or(cycle.dwell);
+    cycle.dwell = command.word(Role::CycleDwell).map_or(last, |ms| ms / 1000.0);
+    machine.lathe.last_dwell =
+        command.word(Role::CycleDwell).map(|ms| ms / 1000.0).or(machine.lathe.last_dwell);
+    cycle.without_dwell = command.without_dwell;
+}
+
+/// Drills at the present place.
+fn hole(machine: &mut Machine, along: usize, trace: &mut Trace) -> Result<(), Stop> {
+    let Some(mut cycle) = machine.cycle.clone() else { return Ok(()) };
+    let mut planes = cycle.planes(None).ok_or_else(|| Stop::unnamed("a drilling cycle without its depth"))?;
+    if cycle.without_dwell {
+        cycle.dwell = 0.0;
+    }
+    if machine.lathe.hole_by_mode.is_some_and(|by_mode| by_mode != machine.incremental) {
+        machine.rules.planes_frozen.ask(trace);
+    }
+    cycle.op = way(machine, &cycle, trace)?;
+    cycle.clear = Some(machine.peck_clearance / machine.real(along));
+    let told_as_place = cycle.r.is_some_and(|(_, by_step)| !by_step);
+    if told_as_place && sense(planes.initial - planes.r) == sense(planes.bottom - planes.r) {
+        // It began below the plane, and ends at it (Q9).
+        planes.initial = planes.r;
+    }
+    expand::hole(machine, &cycle, (planes, along), trace);
+    Ok(())
+}
+
+/// What the cycle does, as the cycles of all controls are called.
+fn way(machine: &Machine, cycle: &Cycle, trace: &mut Trace) -> Result<Op, Stop> {
+    let peck = cycle.peck.is_some_and(|peck| peck != 0.0);
+    Ok(match cycle.op {
+        Op::FaceTap | Op::FaceTapMain | Op::SideTap => Op::CycleTap,
+        Op::FaceBore | Op::SideBore => Op::CycleBore,
+        Op::FacePeck | Op::SidePeck if !peck => {
+            return Err(Stop::unnamed("a drilling cycle in pecks without a peck"));
+        }
+        Op::FaceHole | Op::SideHole | Op::FacePeck | Op::SidePeck if peck => {
+            match machine.rules.pecks_to_plane.ask(trace) {
+                Some(true) => Op::CyclePeck,
+                Some(false) => Op::CycleChipBreak,
+                None => {
+                    return Err(Stop::unnamed("how far a peck goes back, which the profile does not say"));
+                }
+            }
+        }
+        _ => Op::CycleDrill,
+    })
+}

@@ -1,0 +1,43 @@
+//! M codes and tool words in the drilling blocks of a lathe.
+//!
+//! Law: none. Such a code acts between the position and the hole, as the clamp of C does, and the control undoes it after the hole by a code
+//! that only the builder knows: nothing on another machine is sure to be the same. So it is refused. Counter-example: `C90. M31`, where
+//! M31 clamps the spindle before the drill goes down and M32 lets it go after.
+
+use super::holes::drills;
+use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Module, NcItem};
+use crate::legalize::Context;
+
+/// Refuses them.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                state.step(stmt);
+                let Some(nc) = stmt.kind.nc() else { continue };
+                if drills(nc, &state).is_some() && nc.items.iter().any(acts) {
+                    let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, WHAT).with_help(HELP);
+                    context.add(index, found);
+                }
+            }
+        }
+    }
+}
+
+fn acts(item: &NcItem) -> bool {
+    match item {
+        NcItem::Code(letter, _) => *letter == 'M',
+        NcItem::Op(op) => {
+            op.auxiliary().is_some() || matches!(op, Op::Stop | Op::OptionalStop | Op::TurretIndex)
+        }
+        NcItem::Word(role, _) => matches!(role, Role::Turret),
+    }
+}
+
+const WHAT: &str = "an M code or a tool word in a drilling block acts between the position and the hole, as the clamp of C does, and ends \
+                    after the hole: no source says how the target does that";
+const HELP: &str = "give the position, the code, and each hole blocks of their own, with the code that ends it after the hole";

@@ -1,0 +1,217 @@
+//! Cycles for a target whose retract planes are places, with a code for each way of drilling.
+
+use super::walk::{Hole, Refused};
+use crate::canon::{Op, Role, Sys};
+use crate::ir::{BinOp, Expr};
+
+/// The most blocks that a repeat becomes.
+const MOST: f64 = 200.0;
+
+/// Gives a block the target's words and code; how often it runs.
+pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
+    let plane = plane(hole)?;
+    bottom(hole, plane)?;
+    code(hole)?;
+    times(hole)
+}
+
+/// A retract plane of this block: a number, or a value that is computed.
+type Plane = Option<Expr>;
+
+/// The retract plane as a place.
+fn plane(hole: &mut Hole<'_>) -> Result<Plane, Refused> {
+    if hole.fresh {
+        hole.cycle.initial = hole.level();
+    }
+    let written = hole.nc.word(Role::CycleRStep).cloned();
+    let step = match (&written, hole.fresh) {
+        (Some(step), _) => step.clone(),
+        // Without the word the plane is where the cycle begins.
+        (None, true) => Expr::Number(0.0),
+        (None, false) => return Ok(None),
+    };
+    let step = match (step, hole.side()) {
+        // Along X it is a radius, and the place a diameter.
+        (step, true) => scaled(step, 2.0),
+        (step, false) => step,
+    };
+    let value = match (hole.cycle.initial, step.constant()) {
+        (Some(initial), Some(step)) => {
+            let plane = ((initial + step) * 1e6).round() / 1e6;
+            hole.cycle.plane = Some(plane);
+            Expr::Number(plane)
+        }
+        (Some(initial), None) => {
+            hole.cycle.plane = None;
+            Expr::binary(BinOp::Add, step, Expr::Number(initial))
+        }
+        (None, _)
+            if hole.fresh && !hole.side() && hole.target.system_runs(Sys::EndPosition).next().is_some() =>
+        {
+            hole.cycle.plane = None;
+            from(Expr::System(Sys::EndPosition, [Expr::Number(3.0)].into()), step)
+        }
+        _ => return Err((LEVEL, LEVEL_HELP)),
+    };
+    hole.put(Role::CycleRStep, Role::CycleR, value.clone());
+    Ok(Some(value))
+}
+
+fn scaled(value: Expr, by: f64) -> Expr {
+    match value.constant() {
+        Some(number) => Expr::Number(number * by),
+        None => Expr::binary(BinOp::Mul, value, Expr::Number(by)),
+    }
+}
+
+/// A sum as people write it.
+fn from(base: Expr, step: Expr) -> Expr {
+    match step.constant() {
+        Some(0.0) => base,
+        Some(step) if step < 0.0 => Expr::binary(BinOp::Sub, base, Expr::Number(-step)),
+        Some(step) => Expr::binary(BinOp::Add, base, Expr::Number(step)),
+        None => Expr::binary(BinOp::Add, base, step),
+    }
+}
+
+/// The bottom as a place; a depth that counts from the plane needs it.
+fn bottom(hole: &mut Hole<'_>, plane: Plane) -> Result<(), Refused> {
+    let (whole, step) = hole.depth();
+    if let Some(depth) = hole.nc.word(step).cloned() {
+        let plane = hole.cycle.plane.map(Expr::Number).or(plane).ok_or((DEPTH, DEPTH_HELP))?;
+        let value = match (plane.constant(), depth.constant()) {
+            (Some(plane), Some(depth)) => Expr::Number(((plane + depth) * 1e6).round() / 1e6),
+            _ => from(plane, depth),
+        };
+        hole.put(step, whole, value);
+    }
+    hole.cycle.bottom = hole.nc.word(whole).cloned().or(hole.cycle.bottom.take());
+    if hole.fresh && hole.cycle.bottom.is_none() {
+        return Err(("a drilling cycle without its depth", "write the depth into its block"));
+    }
+    let constant = hole.cycle.bottom.as_ref().and_then(Expr::constant);
+    if let (Some(initial), Some(plane), Some(bottom)) = (hole.cycle.initial, hole.cycle.plane, constant)
+        && (initial - plane) * (bottom - plane) > 0.0
+    {
+        return Err((BELOW, BELOW_HELP));
+    }
+    Ok(())
+}
+
+/// The code of the way that the block drills.
+fn code(hole: &mut Hole<'_>) -> Result<(), Refused> {
+    let peck = hole.nc.word(Role::CycleQ).filter(|peck| peck.constant() != Some(0.0)).is_some();
+    if !peck {
+        hole.drop(Role::CycleQ);
+    }
+    let told = hole.nc.word(Role::CycleDwell).cloned();
+    if hole.fresh {
+        hole.cycle.dwell = Some(Expr::Number(0.0));
+    }
+    let last = hole.cycle.dwell.clone().or_else(|| match hole.all.dwells.as_slice() {
+        [] => Some(Expr::Number(0.0)),
+        _ => None,
+    });
+    let dwell = told.or(last).ok_or((WAIT, WAIT_HELP))?;
+    hole.cycle.dwell = Some(dwell.clone());
+    let waits = dwell.constant() != Some(0.0);
+    let side = hole.side();
+    let op = match (hole.op, peck, waits) {
+        (Op::FaceHole | Op::SideHole, true, _) => {
+            if side {
+                Op::SidePeck
+            } else {
+                Op::FacePeck
+            }
+        }
+        (Op::FaceHole | Op::SideHole, _, true) => {
+            if side {
+                Op::SideDrillDwell
+            } else {
+                Op::FaceDrillDwell
+            }
+        }
+        (Op::FaceHole | Op::SideHole, ..) => {
+            if side {
+                Op::SideDrill
+            } else {
+                Op::FaceDrill
+            }
+        }
+        (_, _, true) => return Err((NO_WAIT, "leave P out, or write the hole as moves")),
+        (Op::FaceTap | Op::SideTap, ..) => tap(hole)?,
+        (op, ..) => op,
+    };
+    let alone = !hole.begins && hole.cycle.written == Some(op);
+    // What else a block that goes on may be under is the same code, where the program has but one way of drilling.
+    let one_way = hole.all.dwells.is_empty() && (hole.all.pecks.is_empty() || !hole.all.without_peck);
+    if !alone && (hole.begins || hole.cycle.written.is_some() || !one_way) {
+        again(hole, op)?;
+        if waits || peck && (hole.all.other_waits || !hole.all.dwells.is_empty()) {
+            hole.put(Role::CycleDwell, Role::CycleDwell, dwell);
+            return Ok(());
+        }
+    }
+    if !waits {
+        hole.drop(Role::CycleDwell);
+    }
+    Ok(())
+}
+
+/// Writes a code, with the planes where it is another than before: what lasts over codes is not left to the control.
+fn again(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
+    let (whole, _) = hole.depth();
+    let other = hole.cycle.written.is_some_and(|written| written != op);
+    hole.write(op);
+    if other {
+        let known = hole.cycle.bottom.clone().filter(|bottom| bottom.constant().is_some());
+        for (role, value) in [(Role::CycleR, hole.cycle.plane.map(Expr::Number)), (whole, known)] {
+            if let Some(value) = value.filter(|_| hole.nc.word(role).is_none()) {
+                hole.put(role, role, value);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A tap: only on the centre line, where the target has a code for the main spindle.
+fn tap(hole: &mut Hole<'_>) -> Result<Op, Refused> {
+    let turned = hole.nc.word(Role::C).or(hole.nc.word(Role::StepC)).is_some();
+    let x = match (hole.nc.word(Role::X), hole.nc.word(Role::StepX)) {
+        (Some(x), None) => x.constant(),
+        (None, None) => hole.place.x(),
+        _ => None,
+    };
+    if hole.side() || turned || x != Some(0.0) || !hole.has(Op::FaceTapMain) {
+        return Err((TAP, TAP_HELP));
+    }
+    hole.asked.push((MAIN, MAIN_HELP, Op::FaceTap));
+    Ok(Op::FaceTapMain)
+}
+
+/// How often the block runs: the target has no repeats.
+fn times(hole: &mut Hole<'_>) -> Result<usize, Refused> {
+    let Some(count) = hole.nc.word(Role::Repeat).cloned() else { return Ok(1) };
+    hole.drop(Role::Repeat);
+    match count.constant() {
+        Some(count) if count.fract() == 0.0 && (1.0..=MOST).contains(&count) => Ok(count as usize),
+        _ => Err((REPEAT, "write the holes one by one, or a loop over them")),
+    }
+}
+
+const LEVEL: &str = "the retract plane counts from where the cycle begins, which is not known here, and the target takes it as a place";
+const LEVEL_HELP: &str = "write the place of the tool as numbers (G0 X.. Z..) in a block before the cycle";
+const DEPTH: &str =
+    "the depth counts from the retract plane, which is not known here, and the target takes it as a place";
+const DEPTH_HELP: &str = "write the depth as a place, or the place of the tool as numbers before the cycle";
+const BELOW: &str = "this drilling cycle begins between its retract plane and the bottom: the target ends such a hole at the plane";
+const BELOW_HELP: &str = "begin the cycle at the retract plane or beyond it";
+const WAIT: &str = "which wait of an earlier hole is still in force here depends on the path";
+const WAIT_HELP: &str = "write P into this block";
+const NO_WAIT: &str = "the target's code for this hole takes no wait at the bottom";
+const TAP: &str = "a tap off the centre line, or by C, turns by a live tool: which code of the target that is depends on the direction of the live \
+                   tool, which the block does not say";
+const TAP_HELP: &str = "write the tap for the target by hand";
+const MAIN: &str = "the target taps on the centre line with its main spindle, which it starts itself";
+const MAIN_HELP: &str = "if a live tool taps here, write the target's code for that by hand";
+const REPEAT: &str = "a drilling cycle with a count of repeats that is computed, or is none of 1 to 200: the target has no repeats";

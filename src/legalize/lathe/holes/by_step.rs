@@ -1,0 +1,101 @@
+//! Cycles for a target whose retract planes are ways from where the cycle began, with one code for all drilling along an axis.
+
+use super::walk::{Hole, Refused};
+use crate::canon::{Op, Role};
+use crate::ir::{Expr, NcItem};
+
+/// Gives a block the target's words and code; how often it runs.
+pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
+    plane(hole)?;
+    let (_, step) = hole.depth();
+    if hole.nc.word(step).is_some() {
+        return Err((DEPTH, "write the depth as a place"));
+    }
+    let (whole, _) = hole.depth();
+    if let (Some(bottom), Some(plane), Some(initial)) =
+        (hole.nc.word(whole).and_then(Expr::constant), hole.cycle.plane, hole.cycle.initial)
+        && (initial - plane) * (bottom - plane) > 0.0
+    {
+        return Err((BELOW, "begin the cycle at the retract plane or beyond it"));
+    }
+    match hole.op {
+        Op::FaceTapMain => {
+            hole.write_if_begun(Op::FaceTap);
+        }
+        Op::FaceBore | Op::SideBore => {}
+        op => drill(hole, op)?,
+    }
+    Ok(1)
+}
+
+/// The retract plane as a way.
+fn plane(hole: &mut Hole<'_>) -> Result<(), Refused> {
+    if hole.fresh {
+        hole.cycle.initial = hole.level();
+    }
+    let Some(place) = hole.nc.word(Role::CycleR).cloned() else {
+        return if hole.fresh { Err((NO_PLANE, "write R into the block of the cycle")) } else { Ok(()) };
+    };
+    let (Some(initial), Some(place)) = (hole.cycle.initial, place.constant()) else {
+        return Err((LEVEL, LEVEL_HELP));
+    };
+    hole.cycle.plane = Some(place);
+    let half = if hole.side() { 0.5 } else { 1.0 };
+    let step = ((place - initial) * half * 1e6).round() / 1e6;
+    hole.put(Role::CycleR, Role::CycleRStep, Expr::Number(step));
+    Ok(())
+}
+
+/// Drilling: the wait and the peck where the target needs them told.
+fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
+    let waits = matches!(op, Op::FaceDrillDwell | Op::SideDrillDwell);
+    let pecks = matches!(op, Op::FacePeck | Op::SidePeck);
+    let told = hole.nc.word(Role::CycleDwell).cloned();
+    let earlier = hole.all.other_waits || !hole.all.dwells.is_empty();
+    if hole.begins && told.is_none() {
+        if waits || pecks && earlier {
+            return Err((WAIT, "write P into this block"));
+        }
+        // A wait that an earlier code was told is none of this one.
+        if !hole.all.dwells.is_empty() {
+            hole.nc.items.push(NcItem::Word(Role::CycleDwell, Expr::Number(0.0)));
+        }
+    }
+    if pecks {
+        let own = hole.nc.word(Role::CycleQ).cloned();
+        let only = match hole.all.pecks.as_slice() {
+            [only] => Some(only.clone()),
+            _ => None,
+        };
+        let last = hole.cycle.peck.clone().or(only);
+        if own.is_none() {
+            if hole.begins {
+                return Err((PECK, "write Q into this block"));
+            }
+            let peck = last.ok_or((PECK, "write Q into this block"))?;
+            hole.nc.items.push(NcItem::Word(Role::CycleQ, peck));
+        }
+        hole.cycle.peck = hole.nc.word(Role::CycleQ).cloned();
+    }
+    hole.write_if_begun(if hole.side() { Op::SideHole } else { Op::FaceHole });
+    Ok(())
+}
+
+impl Hole<'_> {
+    /// Writes a code where the source has one.
+    fn write_if_begun(&mut self, op: Op) {
+        if self.begins {
+            self.write(op);
+        }
+    }
+}
+
+const DEPTH: &str = "no source says what an increment of the depth counts from on the source";
+const BELOW: &str = "this drilling cycle begins between its retract plane and the bottom: it ends at the plane, and on the target where it began";
+const NO_PLANE: &str = "a drilling cycle without R: no source says which retract plane it has";
+const LEVEL: &str = "the target takes the retract plane as a way from where the cycle begins, which is not known here, or the plane is computed";
+const LEVEL_HELP: &str =
+    "write the place of the tool as numbers (G0 X.. Z..) in a block before the cycle, and R as a number";
+const WAIT: &str = "the wait of this hole is the last P of any code: the target needs it told";
+const PECK: &str =
+    "the peck of this hole is not known here, and on the target it counts in its own block alone";

@@ -1,0 +1,64 @@
+//! Drilling cycles of lathes, where the two controls tell them otherwise: the retract plane as a way from where the cycle began or as a place,
+//! one code for all drilling or one for each way of it, pecks that count in their block alone.
+//!
+//! Law: a hole goes to the same plane and bottom, in the same pecks, with the same wait, and ends at the level where its cycle began. Side
+//! conditions: that level is a known number, or is read where the cycle begins; the cycle begins above its plane; what lasts from block to block
+//! (a wait, a peck, a plane) is known where the target needs it again. Counter-example: a hole that a called program leaves the cycle of.
+
+mod by_place;
+mod by_step;
+mod walk;
+
+use crate::canon::{Group, Op, Role};
+use crate::dialect::{Control, Question};
+use crate::ir::{Module, Nc, StmtKind};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
+
+/// True where the two controls tell retract planes otherwise.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.any_op(Op::is_hole) && tells_by_step(context.source) != tells_by_step(context.target)
+}
+
+/// True of a control whose retract planes of holes are ways from where the cycle began.
+fn tells_by_step(control: &Control) -> bool {
+    control.dialect().codes.iter().any(|row| row.words.values().any(|role| *role == Role::CycleRStep))
+}
+
+/// The drilling cycle of a lathe that a block runs; `state` is what is in force in it.
+pub fn drills(nc: &Nc, state: &Modal) -> Option<Op> {
+    let goes_on = || {
+        let aside = |op: Op| {
+            op.acts_with_words() || matches!(op, Op::MachineOnce | Op::ReferenceReturn | Op::Reference2)
+        };
+        let places = nc.names_axis() || nc.word(Role::CycleR).or(nc.word(Role::CycleRStep)).is_some();
+        state.op(Group::Cycle).filter(|op| op.is_hole() && places && !nc.ops().any(aside))
+    };
+    nc.ops().find(|op| op.is_hole()).or_else(goes_on)
+}
+
+/// Gives the cycles the target's form.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    walk::run(module, context, tells_by_step(context.target));
+    true
+}
+
+/// Pecks that the two controls do not make alike, or are not known to.
+pub fn pecks(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                state.step(stmt);
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                if nc.word(Role::CycleQ).is_some() && drills(nc, &state).is_some() {
+                    let span = stmt.site.span;
+                    context.rests_on_source(index, span, Question::HolePecks);
+                    context.rests_on_target(index, span, Question::HolePecks);
+                    context.must_agree(index, span, Question::HolePecks);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! The walk through the drilling blocks of a program.
+
+use super::{by_place, by_step, drills};
+use crate::assume::Predicate;
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts};
+use crate::legalize::features::{Feature, Features};
+use crate::legalize::lathe::place::Place;
+use crate::legalize::lathe::straight::entered_straight;
+use crate::legalize::{Context, Modal};
+use std::collections::BTreeMap;
+
+/// Why a hole is refused, and what to do.
+pub(super) type Refused = (&'static str, &'static str);
+
+/// What the target does otherwise, to be asked once.
+pub(super) type Asked = (&'static str, &'static str, Op);
+
+/// What is known of the cycle in force.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cycle {
+    /// Where it began along its axis, a coordinate of the program.
+    pub initial: Option<f64>,
+    /// Its retract plane, a coordinate too.
+    pub plane: Option<f64>,
+    /// Its bottom, where it is a place.
+    pub bottom: Option<Expr>,
+    /// The wait that it was told.
+    pub dwell: Option<Expr>,
+    /// The peck that it was told.
+    pub peck: Option<Expr>,
+    /// The code that the target has in force.
+    pub written: Option<Op>,
+}
+
+/// What holds of all holes of a program.
+#[derive(Clone, Debug, Default)]
+pub(super) struct All {
+    /// The waits that are told, each once.
+    pub dwells: Vec<Expr>,
+    /// The pecks.
+    pub pecks: Vec<Expr>,
+    /// True where some hole has no peck.
+    pub without_peck: bool,
+    /// True where a letter that lasts across codes as the wait may have been told by another code.
+    pub other_waits: bool,
+}
+
+/// A block that drills.
+pub(super) struct Hole<'h> {
+    pub nc: Nc,
+    /// The source's code of the cycle.
+    pub op: Op,
+    /// True where the block has a code of a cycle.
+    pub begins: bool,
+    /// True where no cycle was in force before it.
+    pub fresh: bool,
+    /// Where the tool stands before it.
+    pub place: Place,
+    pub cycle: &'h mut Cycle,
+    pub all: &'h All,
+    pub target: &'h Control,
+    pub asked: Vec<Asked>,
+}
+
+impl Hole<'_> {
+    pub fn side(&self) -> bool {
+        self.op.is_side_hole()
+    }
+
+    /// The axis word of the depth, and its increment.
+    pub fn depth(&self) -> (Role, Role) {
+        if self.side() { (Role::X, Role::StepX) } else { (Role::Z, Role::StepZ) }
+    }
+
+    /// Where the cycle began, if that is a known number.
+    pub fn level(&self) -> Option<f64> {
+        if self.side() { self.place.x() } else { self.place.z() }
+    }
+
+    /// Puts a word in the place of another, or at the end.
+    pub fn put(&mut self, old: Role, new: Role, value: Expr) {
+        let item = NcItem::Word(new, value);
+        match self.nc.items.iter().position(|item| matches!(item, NcItem::Word(role, _) if *role == old)) {
+            Some(at) => self.nc.items[at] = item,
+            None => self.nc.items.push(item),
+        }
+    }
+
+    pub fn drop(&mut self, role: Role) {
+        self.nc.items.retain(|item| !matches!(item, NcItem::Word(found, _) if *found == role));
+    }
+
+    /// Writes the code of the cycle, in place of the source's or before the words.
+    pub fn write(&mut self, op: Op) {
+        let code = |item: &NcItem| matches!(item, NcItem::Op(op) if op.is_hole());
+        match self.nc.items.iter().position(code) {
+            Some(at) => self.nc.items[at] = NcItem::Op(op),
+            None => self.nc.items.insert(0, NcItem::Op(op)),
+        }
+        self.cycle.written = Some(op);
+    }
+
+    pub fn has(&self, op: Op) -> bool {
+        self.target.code_for(op, &BTreeMap::new()).is_some()
+    }
+}
+
+pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool) {
+    let facts = context.modal_facts(module);
+    let other_waits = other_waits(&context.features, by_steps);
+    let mut found: Vec<(usize, Diagnostic)> = Vec::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
+        let all = All { other_waits, ..all(program, &states) };
+        let straight = entered_straight(program);
+        let mut walk = Walk { cycle: Cycle::default(), place: Place::keeping_level() };
+        for ((block, mut state), straight) in program.blocks.iter_mut().zip(states).zip(straight) {
+            if !straight {
+                walk.cycle = Cycle::default();
+                walk.place.forget();
+            }
+            let mut out = Stmts::with_capacity(block.stmts.len());
+            for stmt in std::mem::take(&mut block.stmts) {
+                let span = stmt.site.span;
+                match walk.stmt(&stmt, &mut state, (&all, context.target, by_steps)) {
+                    None => out.push(stmt),
+                    Some(Ok((made, asked))) => {
+                        out.extend(made);
+                        found.extend(asked.into_iter().map(|(what, help, op)| {
+                            let told = Diagnostic::new(Code::Conditional, span, what).with_help(help);
+                            (index, told.assuming(Predicate::Substitute(op)).asked_once())
+                        }));
+                    }
+                    Some(Err((what, help))) => {
+                        found.push((index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help)));
+                        out.push(stmt);
+                    }
+                }
+            }
+            block.stmts = out;
+        }
+    }
+    for (index, diagnostic) in found {
+        let fact = format!("{} {:?}", diagnostic.message, diagnostic.span);
+        context.add_once(index, &fact, diagnostic);
+    }
+}
+
+/// True where another code than that of a hole may have its letter: calls, waits, contours, threads. What such a code becomes on the target may have
+/// it too.
+fn other_waits(features: &Features, by_steps: bool) -> bool {
+    const WORDS: [Role; 6] =
+        [Role::DwellMs, Role::DwellS, Role::Program, Role::ContourFirst, Role::ThreadInfeed, Role::Sequence];
+    let calls = [Feature::Call, Feature::LocalCall, Feature::Modal, Feature::Chain, Feature::ReturnTo];
+    calls.into_iter().any(|call| features.has(call))
+        || WORDS.iter().any(|role| features.role(*role))
+        || !by_steps && features.any_op(Op::is_lathe_cycle)
+}
+
+/// What holds of all holes of a program.
+fn all(program: &Program, states: &[Modal]) -> All {
+    let mut all = All::default();
+    let keep = |list: &mut Vec<Expr>, value: Option<&Expr>| {
+        if let Some(value) = value.filter(|value| !list.contains(value)) {
+            list.push(value.clone());
+        }
+    };
+    for (block, state) in program.blocks.iter().zip(states) {
+        let mut state = state.clone();
+        for stmt in &block.stmts {
+            state.step(stmt);
+            let Some(nc) = stmt.kind.nc() else { continue };
+            if drills(nc, &state).is_some() {
+                keep(&mut all.dwells, nc.word(Role::CycleDwell));
+                keep(&mut all.pecks, nc.word(Role::CycleQ));
+                all.without_peck |= nc.word(Role::CycleQ).is_none();
+            }
+        }
+    }
+    all.dwells.retain(|dwell| dwell.constant() != Some(0.0));
+    all
+}
+
+/// What a walk knows.
+struct Walk {
+    cycle: Cycle,
+    place: Place,
+}
+
+/// What becomes of a block that drills, and what is asked.
+type Made = Result<(Vec<Stmt>, Vec<Asked>), Refused>;
+
+impl Walk {
+    /// Takes a statement; none where it stays as it is.
+    fn stmt(
+        &mut self,
+        stmt: &Stmt,
+        state: &mut Modal,
+        (all, target, by_steps): (&All, &Control, bool),
+    ) -> Option<Made> {
+        let before = state.op(Group::Cycle);
+        state.step(stmt);
+        self.place.enter(stmt);
+        let place = self.place;
+        self.place.step(stmt);
+        let nc = match &stmt.kind {
+            StmtKind::Nc(nc) => nc,
+            StmtKind::Comment | StmtKind::Assign { .. } => return None,
+            _ => {
+                self.cycle = Cycle::default();
+                return None;
+            }
+        };
+        let op = drills(nc, state)?;
+        let begins = nc.ops().any(Op::is_hole);
+        if stmt.site.skip.is_some() {
+            return Some(Err((
+                SKIPPED,
+                "give the block a condition, or write its words in the block after it too",
+            )));
+        }
+        let fresh = before == Some(Op::CycleOff);
+        if before.is_none() {
+            return Some(Err((UNKNOWN, "write G80, or G0 and a place, before the cycle")));
+        }
+        if fresh {
+            self.cycle = Cycle::default();
+        }
+        let mut hole = Hole {
+            nc: nc.clone(),
+            op,
+            begins,
+            fresh,
+            place,
+            cycle: &mut self.cycle,
+            all,
+            target,
+            asked: Vec::new(),
+        };
+        let done = if by_steps { by_step::change(&mut hole) } else { by_place::change(&mut hole) };
+        let times = match done {
+            Ok(times) => times,
+            Err(refused) => return Some(Err(refused)),
+        };
+        let (nc, asked) = (hole.nc, hole.asked);
+        let again = Nc { items: nc.items.iter().filter(|item| says_again(item)).cloned().collect() };
+        let first = Stmt { kind: StmtKind::Nc(nc), site: stmt.site.clone() };
+        let site = crate::ir::SourceInfo { span: stmt.site.span, ..Default::default() };
+        let more = Stmt { kind: StmtKind::Nc(again), site };
+        Some(Ok((std::iter::once(first).chain(std::iter::repeat_n(more, times - 1)).collect(), asked)))
+    }
+}
+
+/// True for what each repeat of a hole is told: its place.
+fn says_again(item: &NcItem) -> bool {
+    matches!(item, NcItem::Word(role, _) if role.is_axis())
+}
+
+const SKIPPED: &str = "a block skip before a drilling block: what lasts from it is not known after it";
+const UNKNOWN: &str = "whether a drilling cycle is in force before this one is not known";
