@@ -12,6 +12,7 @@ mod names;
 mod nesting;
 mod random;
 mod running;
+mod settled;
 mod skips;
 mod started;
 mod steered;

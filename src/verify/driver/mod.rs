@@ -12,6 +12,7 @@ mod otherwise;
 mod pictured;
 mod run;
 mod search;
+mod settled;
 mod steered;
 mod summary;
 mod trial;

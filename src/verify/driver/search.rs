@@ -1,5 +1,6 @@
 //! The search for scenarios: in which both sides go every way that they can.
 
+use super::settled::Settled;
 use super::verifier::Verifier;
 use crate::assume::Predicate;
 use crate::canon::Role;
@@ -62,6 +63,7 @@ impl Verifier<'_, '_> {
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
         let (mut starts, mut is_long) = (Vec::new(), false);
+        let mut settled = Settled::default();
         while let Some(mut scenario) = proposals.next() {
             if self.is_out_of_time() {
                 break;
@@ -95,13 +97,15 @@ impl Verifier<'_, '_> {
             if new || telling || spare || wanted {
                 for_target += usize::from(!new && !telling && !spare);
                 let new_there = self.compare(&scenario, &run, there);
-                self.tell(scenario, &run, new || new_there);
+                self.tell(&scenario, &run, new || new_there);
             }
             let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
             let barren = self.compared == 0 && self.tried >= BARREN;
             let told = !telling || self.compared >= effort.telling;
             let enough = told && (self.compared >= effort.fewest || barren);
-            let done = self.coverage.is_complete() && gone && enough;
+            let done = enough
+                && (self.coverage.is_complete() && gone
+                    || self.is_settled(&mut settled, (&scenario, &run), there, &found));
             if self.witness.is_some()
                 || done
                 || endless >= ENDLESS
@@ -111,7 +115,7 @@ impl Verifier<'_, '_> {
                 break;
             }
         }
-        if endless < ENDLESS && !self.went_every_way() {
+        if endless < ENDLESS && !self.went_every_way() && !settled.is_known() {
             self.steer(there, &found, starts);
         }
         self.theirs.clear();
@@ -124,7 +128,7 @@ impl Verifier<'_, '_> {
     }
 
     /// Keeps a scenario that tells much of the program: one that went a new way, and the first ones of all.
-    pub(super) fn tell(&mut self, scenario: Scenario, run: &Run, new: bool) {
+    pub(super) fn tell(&mut self, scenario: &Scenario, run: &Run, new: bool) {
         let ended = match &run.end {
             End::Ended => true,
             End::Alarm { stop, .. } => stop.program_number.is_some() || stop.no_label,
@@ -132,7 +136,7 @@ impl Verifier<'_, '_> {
         };
         self.returns |= run.events.last().is_some_and(|last| returns(&last.what));
         if ended && self.telling.len() < TELLING && (new || self.telling.len() < ANYWAY) {
-            self.telling.push((scenario, self.theirs.clone()));
+            self.telling.push((scenario.clone(), self.theirs.clone()));
         }
     }
 

@@ -149,7 +149,7 @@ impl Verifier<'_, '_> {
         if new || went {
             let new_there = self.compare(&circumstances.scenario, &run, there);
             let scenario = Scenario { nearness: false, ..circumstances.scenario.clone() };
-            self.tell(scenario, &run, new || new_there);
+            self.tell(&scenario, &run, new || new_there);
         }
         match went {
             true => (Attempt::Reached, new),

@@ -7,10 +7,12 @@ mod inputs;
 mod on_target;
 mod random;
 mod scenarios;
+mod settled;
 mod steer;
 
 pub use branches::{Coverage, NotReached};
 pub use inputs::{Inputs, inputs, inputs_of_both};
 pub use on_target::{asked, on_target, set_by_hand, unit};
 pub use scenarios::Proposals;
+pub use settled::is_settled;
 pub use steer::{Attempt, Circumstances, Input, Steer, inputs_of};
