@@ -128,6 +128,9 @@ pub struct Block {
     pub term: Terminator,
 }
 
+// Passes walk all of them many times over: a block is as long as a line of the cache.
+const _: () = assert!(size_of::<Block>() <= 64 && size_of::<Stmt>() <= 56);
+
 impl Program {
     /// The block with this id.
     pub fn block(&self, id: BlockId) -> Option<&Block> {
