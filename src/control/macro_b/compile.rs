@@ -196,12 +196,20 @@ impl Compiler<'_> {
     }
 
     fn items(&mut self, items: &[Item], text: &str, gather: &mut Gather) {
+        let jumps = |item: &&Item| matches!(item.kind, ItemKind::Goto(_));
+        let skips = items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+        let jump = items.iter().find(jumps).filter(|_| self.control.is(Question::GotoActsLast) && !skips);
         for (at, item) in items.iter().enumerate() {
             if let ItemKind::Skip(level) = item.kind {
                 let before = self.before(items.get(..at).unwrap_or_default(), gather);
                 gather.steps.push(Step::Skip { level: level.unwrap_or(1), before });
             }
-            self.item(item, text, gather);
+            if jump.is_none() || !jumps(&item) {
+                self.item(item, text, gather);
+            }
+        }
+        if let Some(jump) = jump {
+            self.item(jump, text, gather);
         }
     }
 

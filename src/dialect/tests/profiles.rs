@@ -70,8 +70,8 @@ fn profiles_state_answers() {
     assert!(open.is_err(), "a number is asked for");
     // What another control of the family leaves open may be left open here.
     let doubted =
-        haas("[behaviours]\narguments.mixed.later.wins = true\nm99.block.moves.first = \"unknown\"").unwrap();
-    assert!(!doubted.behaviour(Question::M99BlockMovesFirst).unwrap().origin.is_confirmed());
+        haas("[behaviours]\narguments.mixed.later.wins = true\ncycle.l0.moves = \"unknown\"").unwrap();
+    assert!(!doubted.behaviour(Question::CycleL0Moves).unwrap().origin.is_confirmed());
     let option = "dialect = \"fanuc\"\n[behaviours]\ncondition.and.or = false";
     assert!(!Control::from_profile(option).unwrap().is(Question::ConditionAndOr));
 }

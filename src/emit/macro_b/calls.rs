@@ -3,6 +3,7 @@
 use super::Emitter;
 use super::expressions::Place;
 use crate::canon::{Op, Role};
+use crate::diag::Code;
 use crate::dialect::{BareLength, Question};
 use crate::ir::{Argument, Call, Callee, Expr};
 
@@ -37,6 +38,11 @@ impl Emitter<'_> {
         self.out.push(letter);
         self.callee(&call.callee);
         if let Some(count) = &call.count {
+            // A macro call's count has no such range.
+            let most = self.control.limit("repeat").map_or(f64::INFINITY, f64::from);
+            if !call.level && count.constant().is_some_and(|count| count > most) {
+                self.out.refuse(Code::Unmapped, format!("a call runs 1 to {most} times here: write a loop"));
+            }
             match spellings.letter(Role::CallCount, &codes) {
                 Some(((letter, _), _)) => {
                     self.out.space();

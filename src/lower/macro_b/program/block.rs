@@ -208,8 +208,14 @@ impl<'a> Lowering<'a> {
     pub fn items(&mut self, items: &'a [Item], site: &SourceInfo) {
         let mut words = Words::new();
         let (mut groups, mut assigns) = (0u32, 0u32);
+        let waits = self.control.is(Question::GotoActsLast);
+        let mut jump = None;
         for (index, item) in items.iter().enumerate() {
             if !acts(item) {
+                continue;
+            }
+            if waits && matches!(item.kind, ItemKind::Goto(_)) {
+                jump = jump.or(Some(item));
                 continue;
             }
             if let ItemKind::Word(word) = &item.kind {
@@ -226,6 +232,10 @@ impl<'a> Lowering<'a> {
         }
         if !words.is_empty() {
             self.words(&words, site);
+        }
+        if let Some(jump) = jump {
+            groups += 1;
+            self.statement(jump, &[], site);
         }
         if groups > 1 {
             let question =
