@@ -160,9 +160,9 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
         }
         match (state.var, tested, &mut block.term.kind) {
             (Some(var), _, TermKind::Branch { cond, .. }) => {
-                *cond = Box::new(Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0)));
+                **cond = Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0));
             }
-            (None, Some(differs), TermKind::Branch { cond, .. }) => *cond = Box::new(differs),
+            (None, Some(differs), TermKind::Branch { cond, .. }) => **cond = differs,
             _ => seen = true,
         }
     }
