@@ -82,6 +82,8 @@ fn of_target(
     let kept = expectation.moves.lines().filter(|line| !(as_moves && line.starts_with("hole ")));
     let kept: String = kept.flat_map(|line| [line, "\n"]).collect();
     Expectation {
+        c_axis: expectation.c_axis,
+        corners: expectation.corners,
         control: converts.to.clone(),
         run: made.texts.iter().enumerate().filter_map(write).collect(),
         ends: expectation.ends.clone(),
