@@ -198,8 +198,6 @@ impl<'p, 'r> Pairs<'p, 'r> {
                 j += 1;
                 continue;
             }
-            // A target that shows texts and stops has no message that would leave them on.
-            let stops_alone = lacks_messages(self.target.control);
             let runs = |side: usize, acts: &[Act<'r>], others: &[Act<'r>], runs: &[Runs; 2]| {
                 acts.first().is_some_and(|act| {
                     may_do_so(act, others, side == 1)
@@ -207,7 +205,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
                         || runs[side].lets_go(acts)
                         || runs[side].stays_open(act)
                         || runs[side].is_idle_speed(acts)
-                        || (side == 1 && stops_alone && starts_again(runs, act))
+                        || (side == 1 && starts_again(runs, act))
                 })
             };
             if runs(0, here, there, &self.runs) {
