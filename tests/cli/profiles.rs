@@ -253,12 +253,12 @@ fn the_profiles_that_ship_are_read() {
         let run = Shop::empty().run(&format!("dialects {dialect} --machine {}", path.display()));
         assert_eq!(run.code, 0, "{}: {}", path.display(), run.err);
         let name = path.file_stem().unwrap().to_string_lossy();
-        let is_lathe = name.ends_with("-t") || name == "haas-st";
+        let is_lathe = name.ends_with("-t") || name.starts_with("haas-st") || name.ends_with("-live-tools");
         // Turning and facing passes are codes of lathes alone.
         assert_eq!(run.out.contains("pass.turning"), is_lathe, "{}", path.display());
         count += 1;
     }
-    assert_eq!(count, 12);
+    assert_eq!(count, 14);
 }
 
 /// A line that is commented out is an answer that nobody has given: put in, it must be one that the profile may have.

@@ -205,7 +205,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
                         || runs[side].lets_go(acts)
                         || runs[side].stays_open(act)
                         || runs[side].is_idle_speed(acts)
-                        || (side == 1 && starts_again(runs, act))
+                        || (side == 1 && starts_again(runs, act, self.target))
                 })
             };
             if runs(0, here, there, &self.runs) {

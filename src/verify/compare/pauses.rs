@@ -5,8 +5,10 @@
 
 use super::kinds::{is_pause, runs, setting};
 use super::observe::Act;
+use super::substitutes::stands_for;
 use crate::canon::{Op, Running};
 use crate::control::trace::{EventKind, Spindle, Told};
+use crate::verify::sides::Side;
 
 /// What runs on one side.
 #[derive(Clone, Debug)]
@@ -148,15 +150,16 @@ impl Runs {
 }
 
 /// True if the target starts again what its stop ended, and what ran on the source before a stop of which nobody knows
-/// what it ended there.
-pub fn starts_again([source, target]: &[Runs; 2], act: &Act<'_>) -> bool {
+/// what it ended there; `side` is the target, which may have another code for it.
+pub fn starts_again([source, target]: &[Runs; 2], act: &Act<'_>, side: &Side<'_>) -> bool {
     let Some(running) = runs(&act.what) else { return false };
     let ran = match running {
         Running::Spindle => &source.spindle,
         Running::Coolant => &source.coolant,
     };
     let open = |side: &Runs| side.open[running as usize];
-    ran == &*act.what && target.by_stop[running as usize] && open(source) && !open(target)
+    let is_same = ran == &*act.what || stands_for(side, ran, &act.what).is_some();
+    is_same && target.by_stop[running as usize] && open(source) && !open(target)
 }
 
 /// True for the same new speed on both sides, if nobody knows whether one of the spindles turns, and the other stands

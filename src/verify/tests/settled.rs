@@ -94,7 +94,7 @@ fn what_comes_from_outside_sends_runs_elsewhere() {
 
 /// A macro that checks its arguments, and a caller that gives it right ones.
 const SOURCE: &str = "O1\nG20G90G17G40G80G94G54\nG0X1.\nG65P2A1.B3.\nM30\nO2\nIF[#1LE0]GOTO9\nIF[#2LT2]GOTO9\n#3=0\n\
-    WHILE[#3LT#2]DO1\nG1X#1F10.\n#3=#3+1\nEND1\nM99\nN9#3000=1(ARGUMENT)\n";
+    WHILE[#3LT#2]DO1\nG1X[#1+#3]F10.\n#3=#3+1\nEND1\nM99\nN9#3000=1(ARGUMENT)\n";
 
 const TARGET: &str = "\
 N1 O1
@@ -110,7 +110,7 @@ N5 #IF V3 LT 2. THEN GOTO :N9
 N6 #V4=0
 N7 #:LOOP
 N8 #IF V4 GE V3 THEN GOTO :OUT
-N9 #R5=V2
+N9 #R5=V2+V4
 N10 G1 X+R5 F10.
 N11 #V4=V4+1
 N12 #GOTO :LOOP
