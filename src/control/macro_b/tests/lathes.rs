@@ -57,7 +57,7 @@ fn what_the_page_does_not_describe_is_refused_by_name() {
         ("G1 X40. A45. F.1", "axis.a"),
         ("G36 X40.", "G36"),
         ("G12.1", "interpolation.polar.on"),
-        ("G83 Z-10. R2. F50.", "G83"),
+        ("G83.5 Z-10. R2. F50.", "G83.5"),
         ("G68", "G68"),
         ("G1 X40. L2 F.1", "no L"),
     ] {
