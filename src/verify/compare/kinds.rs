@@ -52,6 +52,12 @@ pub fn is_pause(what: &EventKind) -> bool {
     matches!(what, Asked { .. } | End { .. } | Message { .. } | OptionalStop | Stop | ToolChange { .. })
 }
 
+/// True for what moves the tool.
+pub fn is_move(what: &EventKind) -> bool {
+    use EventKind::{Arc, Feed, Probe, Rapid, Thread};
+    matches!(what, Rapid { .. } | Feed { .. } | Arc { .. } | Thread { .. } | Probe { .. })
+}
+
 /// True for a mode of corners, ramps or gains, or a limit on reading ahead: it acts in the moves after it.
 pub fn is_mode(what: &EventKind) -> bool {
     let EventKind::Other { operation, .. } = what else { return false };

@@ -3,7 +3,7 @@
 //! Where the source's control is the one, the target's may do as it does; where the target's is, the conversion has to see
 //! to it, but for an optional stop and a tool change, of which it says so.
 
-use super::kinds::{is_pause, runs, setting};
+use super::kinds::{is_move, is_pause, runs, setting};
 use super::observe::Act;
 use super::substitutes::stands_for;
 use crate::canon::{Op, Running};
@@ -55,6 +55,8 @@ impl Runs {
                 self.by_stop[running as usize] = act.told == Told::Implied;
             }
             None if is_pause(&act.what) => self.open = act.event.open,
+            // What is started again is so before the tool moves.
+            None if is_move(&act.what) => self.by_stop = [false; 2],
             None => {}
         }
     }
