@@ -89,6 +89,9 @@ pub struct Numbers {
     pub increment_inch: f64,
     /// Least increment of an angle, degrees.
     pub increment_degrees: f64,
+    /// True where the letters of angles count increments of angles in the arguments of a call too, not of lengths.
+    #[serde(default = "yes")]
+    pub angle_arguments: bool,
     /// Most digits a constant may have; absent where unknown.
     pub digits: Option<u32>,
     /// The smallest number above 0 that is sure to be kept; absent where unknown.

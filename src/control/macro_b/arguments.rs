@@ -126,6 +126,9 @@ impl<'c> Runner<'c> {
         let role = self.session.control.word(word.letter, word.comma).map(|row| row.role);
         let increment = match role {
             Some(role) if role.is_integer() => return Ok(value),
+            Some(role) if role.is_axis() && !role.is_length() && !self.rules.angle_arguments => {
+                self.length_increment()
+            }
             Some(role) => self.increment_of(role).unwrap_or_else(|| self.length_increment()),
             None => self.length_increment(),
         };

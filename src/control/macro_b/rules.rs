@@ -63,6 +63,8 @@ pub struct Rules {
     pub increment_mm: f64,
     pub increment_inch: f64,
     pub increment_degrees: f64,
+    /// True where the letters of angles count increments of angles in arguments too.
+    pub angle_arguments: bool,
     pub alarm_offset: f64,
 }
 
@@ -137,6 +139,7 @@ impl Rules {
             increment_mm: numbers.increment_mm,
             increment_inch: numbers.increment_inch,
             increment_degrees: numbers.increment_degrees,
+            angle_arguments: numbers.angle_arguments,
             alarm_offset: offset.unwrap_or(0.0),
         }
     }

@@ -239,16 +239,21 @@ fn word(value: &mut Expr, role: Role, units: Option<Units>, source: &Control, ta
 fn kept_by(local: u32, source: &Control, target: &Control) -> bool {
     let letter = target.argument_letter(local);
     let bare = letter.map_or(BareLength::Unknown, |letter| target.bare_argument(letter));
-    bare == BareLength::Increments && same_increments(source, target)
+    let alike = counts_angles(local, source) == counts_angles(local, target);
+    bare == BareLength::Increments && alike && same_increments(source, target)
+}
+
+/// True where a number without a point counts increments of angles after this argument's letter.
+fn counts_angles(local: u32, control: &Control) -> bool {
+    let word = control.argument_letter(local).and_then(|letter| control.word(letter, false));
+    control.numbers().angle_arguments && word.is_some_and(|row| row.role.is_angle())
 }
 
 /// Converts the arguments of a call, but those whose local says that they are kept; false where one cannot be.
 fn arguments(call: &mut Call, units: Option<Units>, source: &Control, kept: impl Fn(u32) -> bool) -> bool {
     let mut good = true;
     for argument in call.arguments.iter_mut().filter(|argument| !kept(argument.local)) {
-        let word = source.argument_letter(argument.local).and_then(|letter| source.word(letter, false));
-        let angle = word.is_some_and(|row| row.role.is_angle());
-        good &= convert(&mut argument.value, angle, units, source);
+        good &= convert(&mut argument.value, counts_angles(argument.local, source), units, source);
     }
     good
 }
