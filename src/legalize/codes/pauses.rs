@@ -93,6 +93,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let facts = context.modal_facts(module);
     let (after, started) = (After::of(module, &facts), started(module, context));
     let holds = context.features.op(Op::SpindleOrient);
+    let lost = lost(module, context.source);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| stops_in(block)) {
             let mut place = Place {
@@ -103,6 +104,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 skipped: false,
                 started: started[index],
                 holds,
+                lost,
                 after: &after,
                 again: Vec::new(),
             };
@@ -114,6 +116,22 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
         }
     }
     found
+}
+
+/// What a stop or a tool change may end for the source without the same block starting it again, somewhere in the library.
+fn lost(module: &Module, source: &Control) -> [bool; 2] {
+    let blocks = || module.programs.iter().flat_map(|program| &program.blocks);
+    Running::ALL.map(|running| {
+        let (group, _) = ends(running);
+        blocks().any(|block| {
+            block.stmts.iter().fold(false, |ended, stmt| {
+                let may_end = |(pause, _)| source.ends(pause, running).answer != Some(false);
+                let stops = pause_of(&stmt.kind).filter(|(pause, _)| *pause != Pause::Message);
+                let says = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.ops().any(|op| op.group() == group));
+                !says && (ended || stops.is_some_and(may_end))
+            })
+        })
+    })
 }
 
 /// True where the run ends, be it that the text of the program does.
@@ -231,6 +249,8 @@ struct Place<'p> {
     started: [bool; 2],
     /// True if some program of the library holds the spindle at an angle.
     holds: bool,
+    /// True if a stop or a tool change of the library may leave it ended: whether it runs later is not known then.
+    lost: [bool; 2],
     after: &'p After<'p>,
     /// What the target ends at the stop and the source does not: it is started again after it.
     again: Vec<(usize, Op)>,
@@ -321,7 +341,8 @@ impl Place<'_> {
             }
             let sure = pause == Pause::Message && there.known && there.answer == Some(true);
             let again = self.state.op(ends(running).0).filter(|op| starts(running).contains(op));
-            match again.filter(|_| sure && here.answer != Some(true)) {
+            let known = sure && here.answer != Some(true) && !self.lost[running as usize];
+            match again.filter(|_| known) {
                 Some(op) if matters => self.again.push((number - 1, op)),
                 None if here.answer == Some(false) && there.answer != Some(false) && matters => {
                     self.tell(pause, there, span, context);

@@ -52,7 +52,10 @@ impl Runs {
         match runs(&act.what) {
             Some(running) => {
                 self.open[running as usize] = act.event.open[running as usize];
-                self.by_stop[running as usize] = act.told == Told::Implied;
+                // A new speed of a spindle that stands lets it stand.
+                let stands = matches!(*act.what, EventKind::Spindle { direction: Spindle::Stopped, .. });
+                self.by_stop[running as usize] &= stands;
+                self.by_stop[running as usize] |= act.told == Told::Implied;
             }
             None if is_pause(&act.what) => self.open = act.event.open,
             // What is started again is so before the tool moves.
