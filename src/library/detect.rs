@@ -150,7 +150,7 @@ fn of_system(lathe: &Control, system: &str) -> Option<Control> {
 /// How each control reads each file.
 fn scores(inputs: &[Input], most: usize) -> Vec<Vec<(Score, &'static Entry)>> {
     let of = |input: &Input| {
-        CONTROLS.iter().map(|(kinds, entry)| (best(kinds, start(&input.bytes, most)), *entry)).collect()
+        CONTROLS.iter().map(|(kinds, entry)| (plain(kinds, start(&input.bytes, most)), *entry)).collect()
     };
     inputs.par_iter().map(of).collect()
 }
@@ -162,10 +162,9 @@ fn of_all(files: &[Vec<(Score, &'static Entry)>]) -> Vec<(Score, &'static Entry)
     registry::all().iter().enumerate().map(|(at, entry)| (sum(at), entry)).collect()
 }
 
-/// How a control reads a file as the kind of machine that the file is for.
-fn best(kinds: &[Control], bytes: &[u8]) -> Score {
-    let scores = kinds.iter().map(|control| score(control, bytes));
-    scores.max_by_key(|score| score.good).unwrap_or_default()
+/// How a control without a profile reads a file: kinds of machines that two controls share tell neither from the other.
+fn plain(kinds: &[Control], bytes: &[u8]) -> Score {
+    kinds.first().map(|control| score(control, bytes)).unwrap_or_default()
 }
 
 /// The blocks without fault whose codes the table knows.
