@@ -197,8 +197,10 @@ impl Compiler<'_> {
 
     fn items(&mut self, items: &[Item], text: &str, gather: &mut Gather) {
         let jumps = |item: &&Item| matches!(item.kind, ItemKind::Goto(_));
-        let skips = items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
-        let jump = items.iter().find(jumps).filter(|_| self.control.is(Question::GotoActsLast) && !skips);
+        // A block skip after the jump leaves out what stands after it, and not the jump.
+        let after = items.iter().skip_while(|item| !jumps(item));
+        let skips = after.clone().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+        let jump = after.clone().next().filter(|_| self.control.is(Question::GotoActsLast) && !skips);
         for (at, item) in items.iter().enumerate() {
             if let ItemKind::Skip(level) = item.kind {
                 let before = self.before(items.get(..at).unwrap_or_default(), gather);

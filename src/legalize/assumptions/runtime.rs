@@ -7,7 +7,9 @@
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side, matters};
-use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind, TermKind};
+use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
+use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
@@ -29,9 +31,11 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         context.source.is(Question::CycleStartsSpindle) && !context.target.is(Question::CycleStartsSpindle);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     for (index, program) in module.programs.iter().enumerate() {
+        let standing = (cycles && starts).then(|| solve(&Standing, program, &Cfg::of(program)));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
-            let mut stands = false;
+            let mut stands =
+                standing.as_ref().and_then(|standing| standing.at(id)).is_some_and(|stands| *stands);
             for stmt in &block.stmts {
                 let span = stmt.site.span;
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
@@ -50,6 +54,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         && turned_by_cycle(nc, stands, state)
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
+                        stands = false;
                     }
                     if nc.word(Role::Repeat).is_some_and(|count| count.constant().is_none_or(|n| n < 1.0)) {
                         context.must_agree(index, span, Question::CycleL0Stores);
@@ -120,19 +125,39 @@ fn stored_place(context: &mut Context<'_>, index: usize, span: Span) {
 const STANDS: &str = "the spindle stands here, and the source's drilling cycle starts it by itself; the target's does not: write M3 or \
      M4 before the cycle";
 
+/// Whether a tool change has stopped the spindle on some way to a place.
+struct Standing;
+
+impl Analysis for Standing {
+    type State = bool;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, bool)> {
+        cfg.roots().iter().map(|root| (*root, false)).collect()
+    }
+
+    fn block(&self, _: BlockId, block: &Block, stands: &mut bool) {
+        let ncs = block.stmts.iter().filter_map(|stmt| stmt.kind.nc());
+        ncs.for_each(|nc| *stands = stands_after(nc, *stands));
+    }
+}
+
 /// True where a tool change has stopped the spindle, and nothing has said since what it does.
 fn stands_after(nc: &Nc, stands: bool) -> bool {
     let says = nc.ops().any(|op| op.group() == Group::Spindle);
     (stands || nc.has(Op::ToolChange)) && !says
 }
 
-/// True where a cycle begins that finds the spindle standing.
+/// True where a block drills, or taps, and finds the spindle standing.
 fn turned_by_cycle(nc: &Nc, stands: bool, before: &Modal) -> bool {
-    let taps = nc.ops().any(Op::is_tap);
+    let begun = nc.ops().find(|op| op.is_cycle());
+    let Some(op) = begun.or(before.op(Group::Cycle)).filter(|op| op.is_cycle()) else { return false };
     let says = nc.ops().any(|op| op.group() == Group::Spindle);
+    let moves = nc.ops().any(|op| op.group() == Group::Motion);
     let stopped = before.op(Group::Spindle) == Some(Op::SpindleStop);
     let stored = nc.word(Role::Repeat).and_then(Expr::constant) == Some(0.0);
-    nc.ops().any(Op::is_cycle) && !says && !stored && (stands || taps && stopped)
+    let drills = begun.is_some() || !moves && !nc.has(Op::CycleOff) && goes_somewhere(nc, Some(before));
+    drills && !stored && !says && (stands || stopped && op.is_tap())
 }
 
 /// True where a block of a drilling cycle has a position.

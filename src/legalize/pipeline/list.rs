@@ -1,7 +1,7 @@
 //! The passes, in the order they run in.
 
+use super::cycles::CYCLES;
 use super::late::{ENTRY, EXPRESSIONS, LAYOUT, OPERATOR, REGISTERS};
-use super::lathe::is_mill;
 use super::moves::MOVES;
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
@@ -11,17 +11,16 @@ use crate::legalize::calls::{
     chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
 };
 use crate::legalize::codes::{
-    acts, beside_moves, by_number, code_chains, forbidden, lookahead, machine_codes, missing, pauses,
-    substitutes, waits,
+    acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
 };
-use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
+use crate::legalize::cycles::stored_places;
 use crate::legalize::expressions::halves;
-use crate::legalize::features::{Feature, Features};
+use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{joined, start};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
-use crate::legalize::operator::{alarms, formatted, omitted, shown_stops};
+use crate::legalize::operator::{formatted, omitted, shown_stops};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, modal_reads, output_codes, output_states, probe_points, signals,
     state, subscript_chains, timers, touch_points, vacant_writes,
@@ -147,6 +146,12 @@ const SOURCE: &[Pass] = &[
         .when(other_kind::concerns),
     super::lathe::HOLE_CODES,
     super::lathe::INTERPOLATIONS,
+    Pass::edits(
+        "stored-places",
+        "a place beside a repeat of none is gone to before its cycle",
+        stored_places::run,
+    )
+    .when(stored_places::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];
@@ -316,53 +321,6 @@ const VARIABLES: &[Pass] = &[
             "offset-rows",
             "signals",
         ]),
-];
-
-/// True if the library drills.
-fn drills(features: &Features) -> bool {
-    features.any_op(|op| op.is_cycle() || matches!(op, Op::CycleHere | Op::ReturnR | Op::ReturnInitial))
-}
-
-const CYCLES: &[Pass] = &[
-    Pass::reports("alarms", "checks alarm numbers that the target does not take", alarms::run)
-        .when(|c, _| c.has(Feature::Message)),
-    Pass::rewrites("lookahead", "waits for the moves become what holds the target back", lookahead::run)
-        .when(|c, _| c.has(Feature::Wait) || c.has(Feature::Emptied)),
-    Pass::edits("waits", "what is read before the moves are done waits for them", waits::run)
-        .when(waits::concerns)
-        .needs(&["state", "lookahead"]),
-    Pass::rewrites("hole-moves", "holes become moves, where cycles take no planes", hole_moves::run)
-        .when(|c, context| is_mill(context) && drills(c) && hole_moves::replaces(context.target))
-        .needs(&["modal-calls", "units", "tool-lengths"])
-        .changes_flow(),
-    Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
-        .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell))
-        .needs(&["hole-moves"]),
-    Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
-        .when(|c, context| is_mill(context) && drills(c) && !hole_moves::replaces(context.target)),
-    Pass::rewrites(
-        "cycle-ends",
-        "cycles that motion does not end there are ended before it",
-        cycle_ends::run,
-    )
-    .when(|c, context| {
-        let open = c.has(Feature::Code) || context.chained || context.drills;
-        cycle_ends::concerns(c, context) && (open || !hole_moves::replaces(context.target))
-    })
-    .needs(&["cycle-here"]),
-    Pass::rewrites(
-        "cycle-planes",
-        "retract planes are told again where a cycle goes on from another",
-        cycle_planes::run,
-    )
-    .when(cycle_planes::concerns)
-    .needs(&["cycle-here"]),
-    Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
-        .when(|c, context| {
-            let words = cycle_words::ROLES.iter().any(|role| c.role(*role));
-            is_mill(context) && words && !hole_moves::replaces(context.target)
-        })
-        .needs(&["dwell", "cycle-here"]),
 ];
 
 const CODES: &[Pass] = &[

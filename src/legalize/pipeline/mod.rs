@@ -4,6 +4,7 @@
 //! what the library is after any of them. In debug builds the IR is validated after every pass, and each pass
 //! is held to what it says that it changes.
 
+mod cycles;
 mod late;
 mod lathe;
 mod list;
