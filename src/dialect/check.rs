@@ -73,9 +73,17 @@ pub const MEANINGS: &[&str] = &[
 
 /// What of a machine the value of a setting may be, where that is no word of a code: how far the end of an arc may lie off its
 /// circle; the angle of the run-out of a thread, degrees; what the feed of a lathe counts at power-on, `turn` or `minute`.
-/// The first and the last M code by which the paths of a machine wait for each other, and the mark before a path's part of a file.
-pub const TELLS: &[&str] =
-    &["arc.limit", "thread.run.out.angle", "lathe.feed", "paths.wait.first", "paths.wait.last", "paths.mark"];
+/// The first and the last M code by which the paths of a machine wait for each other, the values of P beside one, and the mark
+/// before a path's part of a file.
+pub const TELLS: &[&str] = &[
+    "arc.limit",
+    "thread.run.out.angle",
+    "lathe.feed",
+    "paths.wait.first",
+    "paths.wait.last",
+    "paths.wait.p",
+    "paths.mark",
+];
 
 /// Statements that a control can have.
 pub const STATEMENTS: &[&str] = &[

@@ -154,7 +154,7 @@ questions! {
     BracketCopiesVacancy "bracket.copies.vacancy" YES, "#2=[#1] copies vacancy as #2=#1 does", if "behaviour:vacancy";
     GotoForwardFirst "goto.forward.first" YES, "a jump looks forward first, then from the head of the program";
     GotoComputed "goto.computed" YES, "a jump may go to a computed number";
-    GotoActsLast "goto.acts.last" YES, "a jump acts when all else of its block is done, what stands behind it too", if "said";
+    GotoActsLast "goto.acts.last" YES, "a jump acts when all else of its block is done, what stands after it too", if "said";
     GotoMissingAlarms "goto.missing.alarms" YES, "a jump to a label or number that no block has stops the program with an alarm", if "statement:goto.label";
     GotoFirstLabel "goto.first.label" YES, "a jump to a repeated label always finds the first one", if "statement:goto.label";
     SequenceAnywhere "sequence.anywhere" YES, "N may stand anywhere in its block";

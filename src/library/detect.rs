@@ -83,8 +83,7 @@ pub fn likeness(inputs: &[Input]) -> Vec<(&'static Entry, f64)> {
 pub fn looks_like(inputs: &[Input], named: &str) -> Option<String> {
     let step = inputs.len().div_ceil(FEW).max(1);
     let some: Vec<Input> = inputs.iter().step_by(step).map(head).collect();
-    let own = CONTROLS.iter().find(|(_, entry)| entry.name == named)?;
-    if own.0.iter().any(|control| reads_most(control, &some)) {
+    if kinds(&Control::plain(named)?).iter().any(|control| reads_most(control, &some)) {
         return None;
     }
     let files = scores(&some, SHORT);
@@ -125,9 +124,9 @@ fn start(bytes: &[u8], most: usize) -> &[u8] {
     }
 }
 
-/// Every control without a profile, with each kind of machine and G code system that its table has.
-static CONTROLS: LazyLock<Vec<(Vec<Control>, &'static Entry)>> = LazyLock::new(|| {
-    let plain = |entry: &'static Entry| Some((kinds(&Control::plain(entry.name)?), entry));
+/// Every control without a profile: kinds of machines that two controls share tell neither from the other.
+static CONTROLS: LazyLock<Vec<(Control, &'static Entry)>> = LazyLock::new(|| {
+    let plain = |entry: &'static Entry| Some((Control::plain(entry.name)?, entry));
     registry::all().iter().filter_map(plain).collect()
 });
 
@@ -150,7 +149,7 @@ fn of_system(lathe: &Control, system: &str) -> Option<Control> {
 /// How each control reads each file.
 fn scores(inputs: &[Input], most: usize) -> Vec<Vec<(Score, &'static Entry)>> {
     let of = |input: &Input| {
-        CONTROLS.iter().map(|(kinds, entry)| (plain(kinds, start(&input.bytes, most)), *entry)).collect()
+        CONTROLS.iter().map(|(c, entry)| (score(c, start(&input.bytes, most)), *entry)).collect()
     };
     inputs.par_iter().map(of).collect()
 }
@@ -160,11 +159,6 @@ fn of_all(files: &[Vec<(Score, &'static Entry)>]) -> Vec<(Score, &'static Entry)
         files.iter().filter_map(|file| file.get(at)).map(|(s, _)| *s).fold(Score::default(), Score::add)
     };
     registry::all().iter().enumerate().map(|(at, entry)| (sum(at), entry)).collect()
-}
-
-/// How a control without a profile reads a file: kinds of machines that two controls share tell neither from the other.
-fn plain(kinds: &[Control], bytes: &[u8]) -> Score {
-    kinds.first().map(|control| score(control, bytes)).unwrap_or_default()
 }
 
 /// The blocks without fault whose codes the table knows.

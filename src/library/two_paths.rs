@@ -15,6 +15,8 @@ use crate::text::Span;
 struct Signs {
     /// The M codes by which paths wait.
     waits: Option<(f64, f64)>,
+    /// The values of P beside one, which say in digits which paths wait.
+    paths: Vec<f64>,
     /// What stands before the number of a path where its part of a file begins.
     mark: Option<String>,
 }
@@ -25,6 +27,9 @@ impl Signs {
         let number = |name: &str| told(name).and_then(|value| value.parse::<f64>().ok());
         Self {
             waits: number("paths.wait.first").zip(number("paths.wait.last")),
+            paths: told("paths.wait.p").map_or(Vec::new(), |all| {
+                all.split_whitespace().filter_map(|value| value.parse().ok()).collect()
+            }),
             mark: told("paths.mark").map(str::to_owned),
         }
     }
@@ -52,15 +57,11 @@ impl Signs {
         let value = |wanted: char| words.iter().find(|(letter, _)| *letter == wanted).and_then(|word| word.1);
         let code = value('M').filter(|code| (first..=last).contains(code))?;
         let of_builder = control.site_code('M', code).is_some() || control.alias('M', code).is_some();
-        let waits = value('P').is_some_and(names_paths) && words.iter().all(|word| "MPN".contains(word.0));
+        let waits = value('P').is_some_and(|paths| self.paths.contains(&paths))
+            && words.iter().all(|word| "MPN".contains(word.0));
         (waits && !of_builder && control.code('M', code, &words).is_none())
             .then(|| format!("at {text} the paths of the machine wait for each other"))
     }
-}
-
-/// True for digits that name two paths or more: 12, 13, 23, 123.
-fn names_paths(value: f64) -> bool {
-    [12.0, 13.0, 23.0, 123.0].contains(&value)
 }
 
 /// Refuses the programs that show a second path, each with one finding.

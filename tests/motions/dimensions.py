@@ -36,10 +36,10 @@ class Drawn(Lathe):
 # Corners: a fillet of 3 to the face at Z-15., a chamfer of 2 to 40, a round of 1.5 before a cone.
 
 
-def cornered(part):
+def cornered(part, first="round"):
     part.go(20.0, 2.0)
     part.cut(z=-15.0, f=0.2)
-    part.corner("round", 3.0)
+    part.corner(first, 3.0)
     part.cut(x=40.0)
     part.corner("chamfer", 2.0)
     part.cut(z=-30.0)
@@ -64,12 +64,7 @@ for control, name, how, settings in (
 
 part = Drawn("fanuc", "signs", "Chamfers of 3 and 2 by I and K: I is a radius, its sign that of the next move in X, K's that "
                                "of the next move in Z.")
-part.go(20.0, 2.0)
-part.cut(z=-15.0, f=0.2)
-part.corner("chamfer", 3.0)
-part.cut(x=40.0)
-part.corner("chamfer", 2.0)
-part.cut(z=-30.0)
+cornered(part, "chamfer")
 part.go(x=60.0)
 
 # ---------------------------------------------------------------------------------------------------------------------

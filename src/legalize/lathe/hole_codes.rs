@@ -4,7 +4,7 @@
 //! that only the builder knows: nothing on another machine is sure to be the same. So it is refused. Counter-example: `C90. M31`, where
 //! M31 clamps the spindle before the drill goes down and M32 lets it go after.
 
-use super::holes::drills;
+use super::holes;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, NcItem};
@@ -12,20 +12,11 @@ use crate::legalize::Context;
 
 /// Refuses them.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let facts = context.modal_facts(module);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                state.step(stmt);
-                let Some(nc) = stmt.kind.nc() else { continue };
-                if drills(nc, &state).is_some() && nc.items.iter().any(acts) {
-                    let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, WHAT).with_help(HELP);
-                    context.add(index, found);
-                }
-            }
+    holes::each(module, context, |index, span, nc, context| {
+        if nc.items.iter().any(acts) {
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, WHAT).with_help(HELP));
         }
-    }
+    });
 }
 
 fn acts(item: &NcItem) -> bool {

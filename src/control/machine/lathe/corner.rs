@@ -76,7 +76,7 @@ pub fn after(
     Ok(())
 }
 
-/// A line by its angle from Z, counter-clockwise, with the end that follows from it; none where no word gives an angle.
+/// A line by its angle from Z, counter-clockwise, with the end that follows from it; none if no word gives an angle.
 pub fn angled(machine: &Machine, command: &Command) -> Result<Option<Command>, Stop> {
     let Some(angle) = command.word(Role::LineAngle) else { return Ok(None) };
     if command.of(Group::Motion).unwrap_or(machine.motion) != Op::Linear {

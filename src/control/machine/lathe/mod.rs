@@ -94,7 +94,7 @@ pub(super) struct Lathe {
     pub way: Option<Vec<shape::Piece>>,
     /// Where the next block must go, after a corner that says so.
     pub turn: Option<corner::Turn>,
-    /// Whether a word in incremental mode told the depth of the drilling cycle in force; none where a letter of its own did.
+    /// Whether a word in incremental mode told the depth of the drilling cycle in force; none if a letter of its own did.
     pub hole_by_mode: Option<bool>,
     /// The last time of a wait, seconds.
     pub last_dwell: Option<f64>,

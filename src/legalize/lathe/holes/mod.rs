@@ -11,9 +11,10 @@ mod walk;
 
 use crate::canon::{Group, Op, Role};
 use crate::dialect::{Control, Question};
-use crate::ir::{Module, Nc, StmtKind};
+use crate::ir::{Module, Nc};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
+use crate::text::Span;
 
 /// True where the two controls tell retract planes otherwise.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -43,22 +44,33 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     true
 }
 
-/// Pecks that the two controls do not make alike, or are not known to.
-pub fn pecks(module: &Module, context: &mut Context<'_>) {
+/// Looks at each block that drills.
+pub(super) fn each(
+    module: &Module,
+    context: &mut Context<'_>,
+    mut look: impl FnMut(usize, Span, &Nc, &mut Context<'_>),
+) {
     let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);
             for stmt in &block.stmts {
                 state.step(stmt);
-                let StmtKind::Nc(nc) = &stmt.kind else { continue };
-                if nc.word(Role::CycleQ).is_some() && drills(nc, &state).is_some() {
-                    let span = stmt.site.span;
-                    context.rests_on_source(index, span, Question::HolePecks);
-                    context.rests_on_target(index, span, Question::HolePecks);
-                    context.must_agree(index, span, Question::HolePecks);
+                if let Some(nc) = stmt.kind.nc().filter(|nc| drills(nc, &state).is_some()) {
+                    look(index, stmt.site.span, nc, context);
                 }
             }
         }
     }
+}
+
+/// Pecks that the two controls do not make alike, or are not known to.
+pub fn pecks(module: &Module, context: &mut Context<'_>) {
+    each(module, context, |index, span, nc, context| {
+        if nc.word(Role::CycleQ).is_some() {
+            context.rests_on_source(index, span, Question::HolePecks);
+            context.rests_on_target(index, span, Question::HolePecks);
+            context.must_agree(index, span, Question::HolePecks);
+        }
+    });
 }
