@@ -122,6 +122,7 @@ fn so_many_rows_are_unconfirmed() {
         count(&dialect.behaviours, &mut counts);
         count(&dialect.variables, &mut counts);
         count(&dialect.in_use, &mut counts);
+        count(&dialect.same_cells, &mut counts);
         count(&dialect.system, &mut counts);
         count(&dialect.words, &mut counts);
         count(&dialect.codes, &mut counts);

@@ -5,7 +5,7 @@ use super::overlay;
 use super::reader::{Placed, Reader, closest};
 use super::{
     Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Mark, Operator, Question, Row,
-    Setting, Statement, SystemVariable, VariableClass, WordMeaning,
+    SameCells, Setting, Statement, SystemVariable, VariableClass, WordMeaning,
 };
 use std::collections::BTreeMap;
 
@@ -21,6 +21,7 @@ pub(super) struct Tables {
     pub behaviours: Vec<Placed<Behaviour>>,
     pub variables: Vec<Placed<VariableClass>>,
     pub in_use: Vec<Placed<InUse>>,
+    pub same_cells: Vec<Placed<SameCells>>,
     pub system: Vec<Placed<SystemVariable>>,
     pub words: Vec<Placed<WordMeaning>>,
     pub codes: Vec<Placed<CodeMeaning>>,
@@ -47,6 +48,7 @@ pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     answers(reader, &tables.behaviours);
     settings(reader, tables);
     variables(reader, &tables.variables);
+    same_cells(reader, &tables.same_cells, &tables.variables);
     free_or_system(reader, tables);
     super::check_system::check(reader, &tables.system);
     super::check_codes::check(reader, &tables.codes);
@@ -221,6 +223,33 @@ fn one_of<T: Row>(reader: &mut Reader, placed: &Placed<T>, value: &str, known: &
     }
 }
 
+/// Second numbers name cells that are there, and are no variables of their own.
+fn same_cells(reader: &mut Reader, rows: &[Placed<SameCells>], variables: &[Placed<VariableClass>]) {
+    let is_variable = |name: &str, number: u32| {
+        let mut rows = variables.iter().map(|placed| &placed.row);
+        rows.any(|row| row.name == name && row.class != "letter" && (row.first..=row.last).contains(&number))
+    };
+    for placed in rows {
+        let row = &placed.row;
+        let Some(more) = row.last.checked_sub(row.first) else {
+            let message = format!("the range {}..{} is backwards", row.first, row.last);
+            reader.fault_at(placed.place.clone(), message, "write the smaller number as 'first'");
+            continue;
+        };
+        let own = [row.first, row.last].into_iter().find(|number| is_variable(&row.name, *number));
+        let missing =
+            [row.cell, row.cell.saturating_add(more)].into_iter().find(|cell| !is_variable(&row.name, *cell));
+        if let Some(number) = own {
+            let message = format!("{}{number} is a variable of its own", row.name);
+            reader.fault_at(placed.place.clone(), message, "take it out here, or among the variables");
+        }
+        if let Some(cell) = missing {
+            let message = format!("there is no variable {}{cell}", row.name);
+            reader.fault_at(placed.place.clone(), message, "write the number of the cell that 'first' names");
+        }
+    }
+}
+
 /// Variables of one name do not overlap, and no range is backwards.
 fn variables(reader: &mut Reader, rows: &[Placed<VariableClass>]) {
     const CLASSES: &[&str] = &["local", "common", "retained", "parametric", "letter"];
@@ -357,6 +386,7 @@ fn sources(reader: &mut Reader, tables: &Tables) {
     section(reader, &tables.behaviours);
     section(reader, &tables.variables);
     section(reader, &tables.in_use);
+    section(reader, &tables.same_cells);
     section(reader, &tables.system);
     section(reader, &tables.words);
     section(reader, &tables.codes);

@@ -5,7 +5,7 @@ use super::profile::{Machine, Profile, Units, VariableRun};
 use super::start::StartMode;
 use super::{
     BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Question,
-    Setting, Statement, Text, VariableClass,
+    SameCells, Setting, Statement, Text, VariableClass,
 };
 use crate::canon::{Func, Op, Sys};
 use foldhash::{HashMap, HashMapExt};
@@ -248,6 +248,17 @@ impl Control {
     /// All classes of variables, in order.
     pub fn classes(&self) -> &[VariableClass] {
         &self.dialect.variables
+    }
+
+    /// The row of a second number of a variable.
+    pub fn same_cells(&self, name: &str, number: u32) -> Option<&SameCells> {
+        let mut rows = self.dialect.same_cells.iter();
+        rows.find(|row| (row.first..=row.last).contains(&number) && row.name == name)
+    }
+
+    /// The number of the cell that a number names: another one where the control numbers its variables twice.
+    pub fn cell(&self, name: &str, number: u32) -> u32 {
+        self.same_cells(name, number).map_or(number, |row| row.cell_of(number))
     }
 
     /// True for a free variable that most shops have put to use.

@@ -39,7 +39,9 @@ impl Control {
         let classes = self.classes().iter().filter(|row| row.name == name).map(|row| (row.first, row.last));
         let states = self.system.get(name).into_iter().flatten().map(|(_, first, last)| (*first, *last));
         let reserved = self.reserved.iter().map(|run| (run.first, run.last));
-        let runs = classes.chain(states).chain(reserved);
+        let same = self.dialect().same_cells.iter().filter(|row| row.name == name);
+        let same = same.map(|row| (row.first, row.last));
+        let runs = classes.chain(states).chain(reserved).chain(same);
         runs.flat_map(|(first, last)| [first, last.saturating_add(1)]).collect()
     }
 

@@ -135,6 +135,7 @@ fn lay(reader: &mut Reader, own: Whole, base: Whole, without: &mut [Without]) ->
             behaviours: lay.rows(mine.behaviours, its.behaviours),
             variables: lay.rows(mine.variables, its.variables),
             in_use: lay.rows(mine.in_use, its.in_use),
+            same_cells: lay.rows(mine.same_cells, its.same_cells),
             system: lay.rows(mine.system, its.system),
             words: lay.rows(mine.words, its.words),
             codes: lay.rows(mine.codes, its.codes),

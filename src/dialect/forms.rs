@@ -1,7 +1,7 @@
 //! What the places of a program take as operands, how much of a line they need, and the names that programs and
 //! variables have.
 
-use super::{Control, Origin, SystemVariable, VariableClass};
+use super::{Control, Origin, SameCells, SystemVariable, VariableClass};
 use crate::canon::Sys;
 use serde::{Deserialize, Serialize};
 
@@ -249,6 +249,11 @@ impl Control {
     /// The class of a free variable of that space.
     pub fn numbered_class(&self, number: u32) -> Option<&VariableClass> {
         self.variable_class(self.numbered()?, number)
+    }
+
+    /// The row of a number of that space which names the cell of another one.
+    pub fn numbered_same(&self, number: u32) -> Option<&SameCells> {
+        self.same_cells(self.numbered()?, number)
     }
 
     /// True for a variable of that space that the profile keeps for the shop.

@@ -44,6 +44,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod unconfirmed;
+mod variables;
 
 pub use acts::{Acts, Ends};
 pub use check::TELLS;
@@ -71,3 +72,4 @@ pub use site::{SiteCode, Without};
 pub use spelling::{Beside, CodeHead, measures};
 pub use start::StartMode;
 pub use unconfirmed::{Settled, Side, to_confirm};
+pub use variables::{InUse, SameCells, VariableClass};

@@ -5,6 +5,7 @@ use super::Forbidden;
 use super::Origin;
 use super::forms::{Form, LineCounts, Names};
 use super::rows::*;
+use super::{InUse, SameCells, VariableClass};
 use serde::{Deserialize, Serialize};
 
 pub(super) fn yes() -> bool {
@@ -48,6 +49,8 @@ pub struct Dialect {
     pub variables: Vec<VariableClass>,
     /// Those of them that most shops have put to use.
     pub in_use: Vec<InUse>,
+    /// Second numbers of them.
+    pub same_cells: Vec<SameCells>,
     /// System variables.
     pub system: Vec<SystemVariable>,
     /// What letters mean where no code says otherwise.

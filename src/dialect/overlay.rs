@@ -70,6 +70,7 @@ fn options_of(dialect: &Dialect) -> BTreeSet<&str> {
     let rows = dialect.codes.iter().map(|row| &row.option);
     let rows = rows.chain(dialect.system.iter().map(|row| &row.option));
     let rows = rows.chain(dialect.variables.iter().map(|row| &row.option));
+    let rows = rows.chain(dialect.same_cells.iter().map(|row| &row.option));
     let rows = rows.chain(dialect.functions.iter().map(|row| &row.option));
     let rows = rows.chain(dialect.operators.iter().map(|row| &row.option));
     let rows = rows.chain(dialect.statements.iter().map(|row| &row.option));
@@ -175,6 +176,7 @@ impl Overlay {
         dialect.words.retain(|row| here(&row.machine, &row.when, &None));
         dialect.forbidden.retain(|row| here(&row.machine, &row.when, &None));
         dialect.variables.retain(|row| has(&row.option));
+        dialect.same_cells.retain(|row| has(&row.option));
         dialect.functions.retain(|row| has(&row.option));
         dialect.operators.retain(|row| has(&row.option));
         dialect.statements.retain(|row| has(&row.option));

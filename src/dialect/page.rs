@@ -105,6 +105,10 @@ pub fn page(control: &Control) -> String {
     section(&mut out, "VARIABLES IN USE", &dialect.in_use, |row| {
         vec![run(&row.name, row.first, row.last, false), row.by.clone()]
     });
+    section(&mut out, "SECOND NUMBERS", &dialect.same_cells, |row| {
+        let cells = run(&row.name, row.cell, row.last - row.first + row.cell, false);
+        vec![run(&row.name, row.first, row.last, false), format!("the cells of {cells}"), option(&row.option)]
+    });
     section(&mut out, "SYSTEM VARIABLES", &dialect.system, |row| {
         let runs = match (row.first, row.last()) {
             (Some(first), Some(last)) => run(&row.name, first, last, false),

@@ -2,7 +2,7 @@
 
 use super::{
     Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Names, Numbers, Operator,
-    Origin, Setting, Statement, SystemVariable, Text, VariableClass, WordMeaning,
+    Origin, SameCells, Setting, Statement, SystemVariable, Text, VariableClass, WordMeaning,
 };
 use crate::canon::Op;
 use serde::de::DeserializeOwned;
@@ -85,6 +85,7 @@ row! {
     Statement "statements" "statement" |row| row.name.clone();
     Behaviour "behaviours" "behaviour" |row| row.question.name().into();
     InUse "in_use" "in_use" |row| format!("{}{}", row.name, row.first);
+    SameCells "same_cells" "same_cells" |row| format!("{}{}", row.name, row.first);
     VariableClass "variables" "variable" |row| format!("{}{}", row.name, row.first);
     SystemVariable "system" "system" |row| match row.first {
         Some(first) => format!("{}{first}", row.name),

@@ -112,47 +112,6 @@ pub struct Behaviour {
     pub origin: Origin,
 }
 
-/// A class of variables.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct VariableClass {
-    /// `local`, `common`, `retained`, `parametric`, `letter`.
-    pub class: String,
-    /// Their name before the number: `#`, `V`, `R`.
-    pub name: String,
-    /// First number.
-    pub first: u32,
-    /// Last number.
-    pub last: u32,
-    /// True where the value survives power-off; absent where unknown.
-    pub retained: Option<bool>,
-    /// True where a variable may be vacant.
-    #[serde(default)]
-    pub nullable: bool,
-    /// An option that must be bought, absent in the basic control.
-    pub option: Option<String>,
-    /// Where it comes from.
-    #[serde(skip_deserializing)]
-    pub origin: Origin,
-}
-
-/// Free variables that something of most shops has put to use: a conversion takes others while there are any.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct InUse {
-    /// Their name before the number.
-    pub name: String,
-    /// First number.
-    pub first: u32,
-    /// Last number.
-    pub last: u32,
-    /// What has them.
-    pub by: String,
-    /// Where it comes from.
-    #[serde(skip_deserializing)]
-    pub origin: Origin,
-}
-
 /// A run of system variables.
 ///
 /// The number of the variable with subscripts i, j is `first + i*step[0] + j*step[1]`

@@ -107,7 +107,7 @@ pub fn normal(
             open: false,
         };
         (normal.calls, normal.open) = calls(block, control);
-        spell(&mut normal, block, source, &labels, named);
+        spell(&mut normal, block, source, (&labels, named, control));
         let is_comment = block.items.iter().all(|item| {
             matches!(item.kind, ItemKind::Comment(_) | ItemKind::Sequence { .. } | ItemKind::EndOfBlock)
         });
@@ -125,8 +125,13 @@ pub fn normal(
 }
 
 /// Writes the block's texts.
-fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named: &Named) {
-    let variables = variables(&block.items);
+fn spell(
+    out: &mut Normal,
+    block: &Block,
+    source: &[u8],
+    (labels, named, control): (&Labels, &Named, &Control),
+) {
+    let variables = variables(&block.items, control);
     let mut head = block.items.iter().filter_map(|item| match item.kind {
         ItemKind::Sequence { number, inserted: false } => Some((number, item.span)),
         _ => None,
@@ -321,11 +326,11 @@ pub fn whole(value: &Expr) -> Option<u32> {
 }
 
 /// The variables of a block whose numbers are written, with their places.
-pub fn variables(items: &[Item]) -> Vec<(Span, String)> {
+pub fn variables(items: &[Item], control: &Control) -> Vec<(Span, String)> {
     let mut out = Vec::new();
     let mut take = |variable: &VarRef| {
         let is_numbered = matches!(variable.index, Index::Number(_) | Index::Letter(_));
-        out.extend(name_of(variable).filter(|_| is_numbered).map(|name| (variable.span, name)));
+        out.extend(name_of(variable, control).filter(|_| is_numbered).map(|name| (variable.span, name)));
     };
     for_each_item(items, &mut |item| match &item.kind {
         ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } | ItemKind::Timer(target) => {

@@ -59,6 +59,7 @@ mod build;
 pub mod eval;
 mod expr;
 mod stmt;
+mod sum;
 pub mod text;
 pub mod validate;
 mod var;
@@ -70,6 +71,7 @@ pub use stmt::{
     Argument, Bank, BlockNumber, Call, Callee, Comment, Nc, NcItem, OutputPart, Place, PrintPart, SourceInfo,
     Stmt, StmtKind, TermKind, Terminator,
 };
+pub use sum::{constant_part, shifted};
 pub use validate::{Valid, validate};
 pub use var::{Class, FLAGS, LAST_NUMBER, LOCAL_FLAGS, OF_NO_LEVEL, Var, flag_of};
 

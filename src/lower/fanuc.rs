@@ -7,5 +7,5 @@ use crate::syntax::ParsedFile;
 
 /// Lowers all programs of a file.
 pub fn lower(parsed: &ParsedFile<'_>, file: usize, _name: &str, control: &Control) -> Lowered {
-    macro_b::lower(parsed, file, control, macro_b::Family { twin: |_| None })
+    macro_b::lower(parsed, file, control)
 }

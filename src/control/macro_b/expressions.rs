@@ -168,6 +168,7 @@ impl<'c, 'f> Expressions<'c, 'f> {
 
 /// What a number names.
 pub fn numbered(control: &Control, number: u32) -> Var {
+    let number = control.cell("#", number);
     if (1..=33).contains(&number) {
         return Var::Local(number as usize);
     }

@@ -89,6 +89,7 @@ impl Runner<'_> {
 
     /// The variable with a computed number; what it rests on is noted now.
     fn found(&mut self, number: u32) -> Var {
+        let number = self.session.control.cell("#", number);
         self.session.trace.computed_number(number);
         let var = numbered(self.session.control, number);
         if let Var::System(system) = &var {

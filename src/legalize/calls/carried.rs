@@ -6,12 +6,12 @@ use crate::ir::analysis::Cfg;
 use crate::ir::analysis::calls_of;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Every, reached, solve};
+use crate::ir::constant_part;
 use crate::ir::{
     Bank, Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, SourceInfo, StmtKind, TermKind,
     Var,
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
-use crate::legalize::variables::computed_numbers::constant_part;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 

@@ -13,11 +13,11 @@
 
 use crate::ir::analysis::dataflow::{Analysis, Cursor, Direction, Steps, solve};
 use crate::ir::analysis::{BitRow, Cfg, Summaries, Universe, Vacancy};
+use crate::ir::constant_part;
 use crate::ir::{Bank, Block, BlockId, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::names::{keeps_number, name_of};
 use crate::legalize::rewrite::highest_temp;
-use crate::legalize::variables::computed_numbers::constant_part;
 use crate::legalize::{Context, calls_of};
 use crate::syntax::Label;
 use std::borrow::Cow;

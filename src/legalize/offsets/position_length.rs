@@ -8,10 +8,10 @@
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
+use crate::ir::constant_part;
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Program, TermKind};
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::variables::computed_numbers::constant_part;
 use crate::legalize::{Context, ModalFacts, Setting, rewrite_program};
 use crate::text::Span;
 

@@ -29,23 +29,22 @@ use super::common::{Findings, comment_text};
 use crate::dialect::{Control, Question};
 use crate::ir::{Comment, SourceInfo};
 use crate::syntax::{ItemKind, ParsedFile};
-pub(super) use build::Family;
 use build::Lowering;
 use codes::Codes;
 pub use parts::cuts;
 use parts::{Labels, Piece};
 
 /// Lowers all programs of a file.
-pub(super) fn lower(parsed: &ParsedFile<'_>, file: usize, control: &Control, family: Family) -> Lowered {
+pub(super) fn lower(parsed: &ParsedFile<'_>, file: usize, control: &Control) -> Lowered {
     let (pieces, tape) = parts::split(parsed);
-    let names = expressions::names(parsed, control, family);
+    let names = expressions::names(parsed, control);
     let mut codes = Codes::new(control);
     let mut findings = Findings::new(control);
     let mut programs = Vec::with_capacity(pieces.len());
     for piece in pieces {
         codes.forget_told();
         let labels = Labels::scan(parsed, &piece, &mut codes);
-        let mut lowering = Lowering::new(parsed, control, family, &names, (codes, findings), labels, &piece);
+        let mut lowering = Lowering::new(parsed, control, &names, (codes, findings), labels, &piece);
         lowering.body(&piece);
         let Lowering { builder, findings: found, codes: met, signed, .. } = lowering;
         (codes, findings) = (met, found);

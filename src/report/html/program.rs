@@ -174,8 +174,11 @@ fn end(run: &Run) -> String {
 fn registers(out: &mut String, shown: &Shown<'_, '_>) {
     let Some(pairs) = shown.pairs else { return };
     let blocks = pairs.blocks(shown.index);
-    let used: BTreeSet<String> =
-        blocks.iter().flat_map(|block| variables(&block.items)).map(|(_, name)| name).collect();
+    let used: BTreeSet<String> = blocks
+        .iter()
+        .flat_map(|block| variables(&block.items, shown.part.controls[0]))
+        .map(|(_, name)| name)
+        .collect();
     let held = held(shown.part);
     let here = held.iter().filter(|held| used.contains(held.variable));
     let here: Vec<String> =

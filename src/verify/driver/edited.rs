@@ -8,7 +8,8 @@
 
 use super::verifier::Verifier;
 use crate::control::ProgramRef;
-use crate::syntax::{Expr, ExprKind, Item, ItemKind};
+use crate::dialect::Control;
+use crate::syntax::{Expr, ExprKind, Item, ItemKind, VarRef};
 use crate::text::Span;
 use crate::verify::certificate::{Edit, Why};
 use crate::verify::explore::{Proposals, inputs, unit};
@@ -146,7 +147,7 @@ fn constants(side: &Side<'_>, program: ProgramRef, head: bool) -> Vec<Constant> 
             if head && branches(item) {
                 return found;
             }
-            for (name, value) in writes(item) {
+            for (name, value) in writes(item, side.control) {
                 // What may be anything may be this variable.
                 let Some(name) = name else { return found };
                 let first = written.insert(name.clone());
@@ -162,7 +163,8 @@ fn constants(side: &Side<'_>, program: ProgramRef, head: bool) -> Vec<Constant> 
 }
 
 /// What an item writes: the variable's name where that is written, and the value where it is an assignment for sure.
-fn writes(item: &Item) -> Vec<(Option<String>, Option<&Expr>)> {
+fn writes<'t>(item: &'t Item, control: &Control) -> Vec<(Option<String>, Option<&'t Expr>)> {
+    let name_of = |variable: &VarRef| name_of(variable, control);
     match &item.kind {
         ItemKind::Assign { target, value, by_sign: false } => vec![(name_of(target), Some(value))],
         ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } | ItemKind::Timer(target) => {
@@ -172,7 +174,9 @@ fn writes(item: &Item) -> Vec<(Option<String>, Option<&Expr>)> {
         ItemKind::Transfer { cells, .. } => {
             cells.iter().filter(|cell| !cell.store).map(|cell| (name_of(&cell.variable), None)).collect()
         }
-        ItemKind::If { body, .. } => body.iter().flat_map(writes).map(|(name, _)| (name, None)).collect(),
+        ItemKind::If { body, .. } => {
+            body.iter().flat_map(|item| writes(item, control)).map(|(name, _)| (name, None)).collect()
+        }
         _ => Vec::new(),
     }
 }

@@ -15,7 +15,7 @@ use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
 use crate::syntax::{BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Target, TestSubject, VarRef};
 use crate::text::Span;
-use crate::verify::sides::{Side, class_of};
+use crate::verify::sides::{Side, class_of, name_of};
 use jumps::{Jumps, State, goes, is_plain};
 use known::{Known, Range, opposite};
 use std::collections::BTreeSet;
@@ -247,7 +247,7 @@ impl Reader<'_> {
     /// The name of a variable that nothing but a program writes; none of any other, which might be any.
     fn name(&self, variable: &VarRef) -> Option<String> {
         let Index::Number(number) = variable.index else { return None };
-        let name = format!("{}{number}", variable.name);
+        let name = name_of(variable, self.control)?;
         let own = self.control.read_system(&variable.name, Some(number)).is_none();
         (own && class_of(self.control, &name).is_some()).then_some(name)
     }

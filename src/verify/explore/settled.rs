@@ -177,7 +177,7 @@ impl Rests<'_> {
         if let Index::Computed(index) = &target.index {
             on.extend(self.read_in(index));
         }
-        match name_of(target) {
+        match name_of(target, self.control) {
             Some(name) => self.rest(Node::Variable(name), on),
             None => self.rest(Node::Any, on),
         }
@@ -193,7 +193,7 @@ impl Rests<'_> {
     }
 
     fn read(&self, variable: &VarRef) -> BTreeSet<Node> {
-        match (self.state_of(variable), name_of(variable)) {
+        match (self.state_of(variable), name_of(variable, self.control)) {
             // The codes in force are what the program, and the state that it starts in, make them.
             (Some(Sys::Modal | Sys::Empty | Sys::Pi | Sys::Euler), _) => BTreeSet::new(),
             (None, Some(name)) => [Node::Variable(name)].into(),

@@ -26,10 +26,10 @@ pub fn numbered(name: &str, letter: &str) -> Option<u32> {
     digits.parse().ok().filter(|_| is_plain)
 }
 
-/// The whole name of a variable whose subscript is written: `#100`, `VX`.
-pub fn name_of(variable: &VarRef) -> Option<String> {
+/// The whole name of a variable whose subscript is written: `#100`, `VX`. Of two numbers of one cell it has the cell's own.
+pub fn name_of(variable: &VarRef, control: &Control) -> Option<String> {
     match &variable.index {
-        Index::Number(number) => Some(format!("{}{number}", variable.name)),
+        Index::Number(number) => Some(format!("{}{}", variable.name, control.cell(&variable.name, *number))),
         Index::Letter(letter) => Some(format!("{}{letter}", variable.name)),
         _ => None,
     }

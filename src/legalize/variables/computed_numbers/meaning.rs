@@ -8,6 +8,8 @@ use crate::dialect::{Control, SystemVariable};
 pub(super) enum Meaning {
     Local,
     Shared,
+    /// The cell of another number.
+    Cell(u32),
     State(Sys, Vec<u32>),
 }
 
@@ -24,6 +26,18 @@ pub(super) fn meaning_by(control: &Control, number: u32, state: Option<&State<'_
     if let Some(row) = control.numbered_class(number) {
         return Some(if row.class == "local" { Meaning::Local } else { Meaning::Shared });
     }
+    if let Some(row) = control.numbered_same(number) {
+        return Some(Meaning::Cell(row.cell_of(number)));
+    }
+    // A second number is counted as that of its cell: what is counted as 200 may be written 10200.
+    let rows =
+        control.dialect().same_cells.iter().filter(|row| Some(row.name.as_str()) == control.numbered());
+    let written = rows.filter_map(|row| number.checked_add(row.first.checked_sub(row.cell)?));
+    if let Some(other) =
+        written.filter(|_| state.is_none()).find(|other| control.numbered_class(*other).is_some())
+    {
+        return Some(Meaning::Cell(other));
+    }
     state.map(|(state, subscripts, _)| Meaning::State(*state, subscripts.clone()))
 }
 
@@ -33,5 +47,6 @@ pub(super) fn last_number(control: &Control) -> u32 {
     let system = control.dialect().system.iter().filter(|row| row.name == name);
     let system = system.filter_map(SystemVariable::last);
     let own = control.classes().iter().filter(|row| row.name == name).map(|row| row.last);
-    system.chain(own).max().unwrap_or(0)
+    let same = control.dialect().same_cells.iter().filter(|row| row.name == name).map(|row| row.last);
+    system.chain(own).chain(same).max().unwrap_or(0)
 }

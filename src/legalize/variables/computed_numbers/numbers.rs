@@ -3,12 +3,12 @@
 use super::Finding;
 use super::alike::{Run, compared};
 use super::meaning::{Meaning, meaning};
-use super::shift::{constant_part, walks};
+use super::shift::walks;
 use crate::canon::Sys;
 use crate::dialect::Control;
-use crate::ir::Expr;
 use crate::ir::analysis;
 use crate::ir::eval::whole;
+use crate::ir::{Expr, constant_part};
 use crate::legalize::offsets::position_length;
 use crate::legalize::variables::state::SCALED;
 use std::collections::BTreeMap;

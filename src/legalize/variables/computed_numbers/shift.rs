@@ -1,21 +1,8 @@
 //! Rewrites computed numbers that the target has elsewhere.
 
 use super::{Finding, Numbers};
-use crate::ir::{Bank, BinOp, Expr, Place, Program, StmtKind};
+use crate::ir::{Bank, BinOp, Expr, Place, Program, StmtKind, shifted};
 use crate::legalize::rewrite_program;
-
-/// The sum of the constants that are added up in a number.
-pub fn constant_part(number: &Expr) -> Option<f64> {
-    match number {
-        Expr::Number(value) => Some(*value),
-        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), operands) => {
-            let [a, b] = [0, 1].map(|at| constant_part(&operands[at]));
-            let b = if *op == BinOp::Sub { b.map(|b| -b) } else { b };
-            if let (Some(a), Some(b)) = (a, b) { Some(a + b) } else { a.or(b) }
-        }
-        _ => None,
-    }
-}
 
 /// True if a number walks in steps of `gap` or more, as `5201+#19*20` does: from one axis's numbers to the next's.
 pub(super) fn walks(number: &Expr, gap: f64) -> bool {
@@ -35,11 +22,11 @@ pub(super) fn shift(program: &mut Program, numbers: &mut Numbers<'_>) -> bool {
     let mut moved = |number: Expr| match *numbers.of(&number) {
         Finding::Shifted(.., by) => {
             any = true;
-            Place::Indirect(Bank::Numbered, Box::new(add(number, by as f64)))
+            Place::Indirect(Bank::Numbered, Box::new(shifted(number, by as f64)))
         }
         Finding::Counted(state, first, _, from) => {
             any = true;
-            let count = match add(number, f64::from(from) - f64::from(first)) {
+            let count = match shifted(number, f64::from(from) - f64::from(first)) {
                 // What is left of the number is the count itself.
                 Expr::Binary(BinOp::Add, sum) if sum[0] == Expr::Number(0.0) => {
                     let [_, count] = *sum;
@@ -63,20 +50,4 @@ pub(super) fn shift(program: &mut Program, numbers: &mut Numbers<'_>) -> bool {
         other => other,
     });
     any
-}
-
-/// Adds to the first constant of a sum.
-fn add(number: Expr, by: f64) -> Expr {
-    match number {
-        Expr::Number(value) => Expr::Number(value + by),
-        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), operands) if constant_part(&operands[0]).is_some() => {
-            let [a, b] = *operands;
-            Expr::binary(op, add(a, by), b)
-        }
-        Expr::Binary(BinOp::Add, operands) if constant_part(&operands[1]).is_some() => {
-            let [a, b] = *operands;
-            Expr::binary(BinOp::Add, a, add(b, by))
-        }
-        number => Expr::binary(BinOp::Add, number, Expr::Number(by)),
-    }
 }

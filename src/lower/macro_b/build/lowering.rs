@@ -10,13 +10,6 @@ use crate::syntax::{ParsedFile, ProgramName, Word};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
-/// What only one control of the family has, and no table can say.
-#[derive(Clone, Copy)]
-pub struct Family {
-    /// Another number of the same variable, where the control numbers it twice.
-    pub twin: fn(u32) -> Option<u32>,
-}
-
 /// The roles that letters had under a motion code, where nothing was to be said of them.
 #[derive(Debug, Default)]
 pub struct RolesUnder {
@@ -37,7 +30,6 @@ pub struct Lowering<'a> {
     pub parsed: &'a ParsedFile<'a>,
     pub source: &'a [u8],
     pub control: &'a Control,
-    pub family: Family,
     pub names: &'a BTreeMap<String, Var>,
     pub codes: Codes<'a>,
     pub labels: Labels,
@@ -87,7 +79,6 @@ impl<'a> Lowering<'a> {
     pub fn new(
         parsed: &'a ParsedFile<'a>,
         control: &'a Control,
-        family: Family,
         names: &'a BTreeMap<String, Var>,
         (codes, findings): (Codes<'a>, Findings<'a>),
         labels: Labels,
@@ -105,7 +96,6 @@ impl<'a> Lowering<'a> {
             parsed,
             source: parsed.source,
             control,
-            family,
             names,
             codes,
             labels,

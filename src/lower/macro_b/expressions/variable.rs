@@ -4,19 +4,19 @@ use super::place::At;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, SystemVariable};
-use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
+use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var, constant_part, shifted};
 use crate::lower::common::constant;
-use crate::lower::macro_b::build::{Family, Lowering};
+use crate::lower::macro_b::build::Lowering;
 use crate::syntax::{Index, ItemKind, ParsedFile, VarRef};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// The names that the programs of a file give to variables.
-pub fn names(parsed: &ParsedFile<'_>, control: &Control, family: Family) -> BTreeMap<String, Var> {
+pub fn names(parsed: &ParsedFile<'_>, control: &Control) -> BTreeMap<String, Var> {
     let mut found = BTreeMap::new();
     for item in parsed.blocks.iter().flat_map(|block| &block.items) {
         let ItemKind::SetNames { first, names } = &item.kind else { continue };
-        let Some(first) = user_variable(control, family, *first) else { continue };
+        let Some(first) = user_variable(control, *first) else { continue };
         for (count, name) in names.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
             found.insert(name.to_ascii_uppercase(), behind(first, count));
         }
@@ -24,11 +24,9 @@ pub fn names(parsed: &ParsedFile<'_>, control: &Control, family: Family) -> BTre
     found
 }
 
-fn user_variable(control: &Control, family: Family, number: u32) -> Option<Var> {
-    let Some(row) = control.variable_class("#", number) else {
-        // The second numbering is not numbered again.
-        return user_variable(control, Family { twin: |_| None }, (family.twin)(number)?);
-    };
+fn user_variable(control: &Control, number: u32) -> Option<Var> {
+    let number = control.cell("#", number);
+    let row = control.variable_class("#", number)?;
     let class = match row.class.as_str() {
         "local" => Class::Local,
         "common" => Class::Common,
@@ -102,7 +100,8 @@ impl<'a> Lowering<'a> {
             Index::Computed(index) => match constant(index).filter(|n| n.fract() == 0.0 && *n >= 0.0) {
                 Some(number) => self.numbered(crate::ir::eval::whole(number)?, span),
                 None => {
-                    Some(Expr::Indirect(Bank::Numbered, Box::new(self.expr_at(index, At::Value, depth + 1))))
+                    let number = self.expr_at(index, At::Value, depth + 1);
+                    Some(Expr::Indirect(Bank::Numbered, Box::new(self.cell(number, span))))
                 }
             },
             Index::Name(name) => self.named(name, span),
@@ -121,11 +120,10 @@ impl<'a> Lowering<'a> {
         if let Some(class) = self.control.variable_class("#", number) {
             self.findings.rest_on(class, span);
         }
-        if let Some(var) = user_variable(self.control, self.family, number) {
-            if var.number != number {
-                let note = format!("#{number} is taken for #{}, as the newer control numbers it", var.number);
-                self.findings.unconfirmed(format!("variable:#{number}"), Some(&note), span);
-            }
+        if let Some(row) = self.control.same_cells("#", number) {
+            self.findings.rest_on(row, span);
+        }
+        if let Some(var) = user_variable(self.control, number) {
             return Some(Expr::Var(var));
         }
         let Some((state, subscripts, row)) = self.control.read_system("#", Some(number)) else {
@@ -139,6 +137,15 @@ impl<'a> Lowering<'a> {
             return Some(Expr::Vacant);
         }
         Some(Expr::System(state, subscripts.into_iter().map(|n| Expr::Number(f64::from(n))).collect()))
+    }
+
+    /// The computed number of a cell, where its constant part is a second number. That it stays among those is
+    /// looked at where computed numbers are.
+    fn cell(&mut self, number: Expr, span: Span) -> Expr {
+        let Some(start) = constant_part(&number).and_then(crate::ir::eval::whole) else { return number };
+        let Some(row) = self.control.same_cells("#", start) else { return number };
+        self.findings.rest_on(row, span);
+        shifted(number, f64::from(row.cell) - f64::from(row.first))
     }
 
     /// The variable with a name: one of this file's SETVN, or the control's own.

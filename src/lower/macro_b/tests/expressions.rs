@@ -43,7 +43,9 @@ fn computed_numbers() {
 #[test]
 fn the_newer_numbers_are_the_older_ones() {
     means("haas", "#10100=#10501", "0: retained.100 = retained.501 | stray");
-    rests_on("haas", "#10100=1", "variable:#10100");
+    means("haas", "#1=#[10100+#2]", "0: local.1 = #[100 + local.2] | stray");
+    means("haas", "#[#1+10500]=#2", "0: #[local.1 + 500] = local.2 | stray");
+    means("haas", "#1=#[10200+#2]", "0: local.1 = #[10200 + local.2] | stray");
     refuses("fanuc", "#10700=1", &[Code::NotUnderstood]);
 }
 

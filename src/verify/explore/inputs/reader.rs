@@ -81,7 +81,7 @@ impl<'c> Reader<'c> {
         match kind {
             ItemKind::Word(word) => self.unit(word),
             ItemKind::Assign { target, value, .. } => {
-                self.numbers.extend(step(target, value));
+                self.numbers.extend(step(target, value, self.control));
                 self.asks |= self.state_of(target) == Some(Sys::StopMessage);
                 self.write(target, sure);
                 self.make(target, value);
@@ -123,14 +123,14 @@ impl<'c> Reader<'c> {
     }
 
     fn write(&mut self, target: &VarRef, sure: bool) {
-        if let (Some(name), true) = (name_of(target), sure) {
+        if let (Some(name), true) = (name_of(target, self.control), sure) {
             self.written.insert(name);
         }
     }
 
     /// Remembers what a variable is made of, to say what that must be for a condition on it.
     fn make(&mut self, target: &VarRef, value: &Expr) {
-        let Some(name) = name_of(target) else { return };
+        let Some(name) = name_of(target, self.control) else { return };
         match solve(value, 1.0) {
             Some(_) => self.made_of.insert(name, value.clone()),
             None => self.made_of.remove(&name),
@@ -150,7 +150,7 @@ impl<'c> Reader<'c> {
         let [argument] = arguments else { return };
         for wanted in [-0.5, 0.5] {
             let Some((variable, value)) = solve(argument, wanted) else { return };
-            let Some(name) = name_of(variable) else { return };
+            let Some(name) = name_of(variable, self.control) else { return };
             self.trace_back(name.clone(), vec![value]);
             self.compared.entry(name).or_default().push(value);
         }
@@ -174,7 +174,7 @@ impl<'c> Reader<'c> {
     fn read(&mut self, variable: &VarRef) {
         if let Some(cell) = self.cell(variable) {
             self.cells.entry(cell).or_default();
-        } else if let Some(name) = name_of(variable)
+        } else if let Some(name) = name_of(variable, self.control)
             && class_of(self.control, &name).is_some_and(|class| self.own || class.class != "local")
             && !self.written.contains(&name)
             && !self.order.contains(&name)
@@ -209,7 +209,7 @@ impl<'c> Reader<'c> {
                 self.compare(variable, &constants);
             }
             if let [a, b] = variables.as_slice()
-                && let (Some(a), Some(b)) = (name_of(a), name_of(b))
+                && let (Some(a), Some(b)) = (name_of(a, self.control), name_of(b, self.control))
             {
                 self.pairs.push((a, b));
             }
@@ -221,7 +221,7 @@ impl<'c> Reader<'c> {
         for label in std::mem::take(&mut self.labels).iter().map(|label| f64::from(*label)) {
             self.numbers.push(label);
             if let Some((variable, value)) = solve(to, label)
-                && let Some(name) = name_of(variable)
+                && let Some(name) = name_of(variable, self.control)
             {
                 self.compared.entry(name).or_default().push(value);
             }
@@ -235,7 +235,7 @@ impl<'c> Reader<'c> {
         self.numbers.extend(&near);
         if let Some(cell) = self.cell(variable) {
             self.cells.entry(cell).or_default().extend(near);
-        } else if let Some(name) = name_of(variable) {
+        } else if let Some(name) = name_of(variable, self.control) {
             self.trace_back(name.clone(), near.clone());
             self.compared.entry(name).or_default().extend(near);
         }
@@ -246,7 +246,8 @@ impl<'c> Reader<'c> {
         for _ in 0..STEPS_BACK {
             let Some(value) = self.made_of.get(&name) else { return };
             let found = values.iter().filter_map(|wanted| solve(value, *wanted));
-            let found: Vec<_> = found.filter_map(|(variable, n)| Some((name_of(variable)?, n))).collect();
+            let found: Vec<_> =
+                found.filter_map(|(variable, n)| Some((name_of(variable, self.control)?, n))).collect();
             let Some(from) = found.first().map(|(from, _)| from.clone()) else { return };
             values = found.into_iter().map(|(_, n)| n).filter(|n| n.abs() < 1e7).collect();
             self.compared.entry(from.clone()).or_default().extend(&values);
@@ -293,13 +294,15 @@ impl<'c> Reader<'c> {
 }
 
 /// By how much a variable goes on each time, and twice that: a way of so few steps comes to its end.
-fn step(target: &VarRef, value: &Expr) -> Vec<f64> {
+fn step(target: &VarRef, value: &Expr, control: &Control) -> Vec<f64> {
     let ExprKind::Binary(BinaryOp::Add | BinaryOp::Subtract, operands) = &value.kind else {
         return Vec::new();
     };
     let [left, right] = &**operands;
     match (&left.kind, &right.kind) {
-        (ExprKind::Variable(variable), ExprKind::Number(by)) if name_of(variable) == name_of(target) => {
+        (ExprKind::Variable(variable), ExprKind::Number(by))
+            if name_of(variable, control) == name_of(target, control) =>
+        {
             vec![by.value, by.value * 2.0]
         }
         _ => Vec::new(),

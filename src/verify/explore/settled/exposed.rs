@@ -40,7 +40,7 @@ pub(super) fn exposed(blocks: &[Block], control: &Control) -> BTreeSet<String> {
     walk.exposed
 }
 
-struct Walk {
+struct Walk<'c> {
     /// What is written where a label is come to; none of those that nothing came to yet.
     at: BTreeMap<Key, Written>,
     /// Numbers in words that a call, or a return, may mean.
@@ -54,10 +54,11 @@ struct Walk {
     loops: Vec<(u32, Key, Option<Written>)>,
     exposed: BTreeSet<String>,
     changed: bool,
+    control: &'c Control,
 }
 
-impl Walk {
-    fn new(blocks: &[Block], control: &Control) -> Self {
+impl<'c> Walk<'c> {
+    fn new(blocks: &[Block], control: &'c Control) -> Self {
         let (mut in_words, mut anywhere, mut nothing) = (BTreeSet::new(), false, false);
         for block in blocks {
             for_each_item(&block.items, &mut |item| match &item.kind {
@@ -89,6 +90,7 @@ impl Walk {
             loops: Vec::new(),
             exposed: BTreeSet::new(),
             changed: false,
+            control,
         }
     }
 
@@ -220,13 +222,14 @@ impl Walk {
     }
 
     fn write(&mut self, target: &VarRef) {
-        if let (Some(here), Some(name), false) = (&mut self.here, name_of(target), self.nothing) {
+        if let (Some(here), Some(name), false) = (&mut self.here, name_of(target, self.control), self.nothing)
+        {
             here.insert(name);
         }
     }
 
     fn read(&mut self, variable: &VarRef) {
-        if let (Some(here), Some(name)) = (&self.here, name_of(variable))
+        if let (Some(here), Some(name)) = (&self.here, name_of(variable, self.control))
             && !here.contains(&name)
         {
             self.exposed.insert(name);
