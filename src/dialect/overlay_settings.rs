@@ -26,7 +26,18 @@ impl Overlay {
             })
             .collect();
         for (place, name, value) in given {
-            match dialect.settings.iter().find(|row| row.covers(&name)) {
+            let known =
+                dialect.settings.iter().find(|row| row.covers(&name) || row.also.as_ref() == Some(&name));
+            // Its number on a newer control says the same.
+            let name =
+                known.filter(|row| row.also.as_ref() == Some(&name)).map_or(name, |row| row.name.clone());
+            match known {
+                Some(Setting { also: Some(both), .. })
+                    if self.stated.contains(&name) && values.get(&name) != Some(&value) =>
+                {
+                    let help = format!("it is {both} on a newer control: keep one of the two");
+                    self.fault(&place, format!("{name} is there twice, with two values"), help);
+                }
                 Some(row) if !row.values.is_empty() && !row.values.contains(&value) => {
                     let help = format!("{}: one of {}", row.meaning, row.values.join(", "));
                     self.fault(&place, format!("'{value}' is not a value of {name}"), help);

@@ -279,6 +279,8 @@ pub struct Argument {
 pub struct Setting {
     /// Its name in the profile: `parameter.6008.7`, `g_alias`, `setting.162`.
     pub name: String,
+    /// Its name on a control of another age.
+    pub also: Option<String>,
     /// Its value where the profile is silent; absent for none.
     pub default: Option<String>,
     /// True where no source says that a machine has the default: what rests on it

@@ -157,6 +157,20 @@ fn refuses_overlapping_and_backward_variables() {
 }
 
 #[test]
+fn second_numbers_name_variables() {
+    let with = |first: u32, last: u32, cell: u32| {
+        format!(
+            r##"variables = [{{ class = "common", name = "#", first = 100, last = 199, source = "s" }}]
+same_cells = [{{ name = "#", first = {first}, last = {last}, cell = {cell}, source = "s" }}]"##
+        )
+    };
+    assert_eq!(faults(&with(1100, 1199, 100)), "");
+    refused(&with(1199, 1100, 100), "the range 1199..1100 is backwards");
+    refused(&with(1100, 1199, 150), "there is no variable #249");
+    refused(&with(150, 159, 100), "#150 is a variable of its own");
+}
+
+#[test]
 fn refuses_system_variables_that_share_a_number() {
     let run = |first: u32, count: u32, step: u32, more: &str| {
         format!(

@@ -47,6 +47,15 @@ fn profiles_say_what_is_wrong_and_where() {
 }
 
 #[test]
+fn a_setting_may_have_another_number_on_a_newer_control() {
+    let lathe = "dialect = \"haas\"\nmachine = \"lathe\"\n[settings]\n";
+    let newer = Control::from_profile(&format!("{lathe}287 = 0.05")).unwrap();
+    assert_eq!(newer.setting("setting.73"), Some("0.05"));
+    assert!(Control::from_profile(&format!("{lathe}73 = 0.05\n287 = 0.05")).is_ok());
+    wrong(&format!("{lathe}287 = 0.05\n73 = 0.5"), "setting.73 is there twice, with two values");
+}
+
+#[test]
 fn profiles_state_answers() {
     let haas = |more: &str| Control::from_profile(&format!("dialect = \"haas\"\n{more}"));
     let told = |more: &str| {
