@@ -212,18 +212,18 @@ struct Loss {
     why: String,
 }
 
-/// Every library on its way to every other control and back, by the two names.
-fn all_rounds() -> BTreeMap<(String, String), rounds::Round> {
+/// Every library on its way to every other control and back, in order; that of lathes last.
+fn all_rounds() -> Vec<rounds::Round> {
     let names = || registry::all().iter().map(|entry| entry.name);
     let ways: Vec<_> = names().flat_map(|from| names().map(move |to| (from, to))).collect();
     let round = |(from, to): (&str, &str)| {
         let inputs = gather(&[root().join("corpus").join(from)], &[]).programs;
-        ((from.to_owned(), to.to_owned()), rounds::round(from, to, &inputs))
+        rounds::round(from, to, &inputs)
     };
-    ways.into_iter().filter(|(from, to)| from != to).map(round).collect()
+    ways.into_iter().filter(|(from, to)| from != to).map(round).chain(rounds::turning()).collect()
 }
 
-fn there_and_back(out: &mut String, pairs: &[Pair], mut rounds: BTreeMap<(String, String), rounds::Round>) {
+fn there_and_back(out: &mut String, pairs: &[Pair], mut rounds: Vec<rounds::Round>) {
     out.push_str(
         "\n## There and back\n\nEach library converted to the other control and back, for a machine of the same kind: programs \
          that were written\nthere, and that came back; what the verifier says of the first text and the last one. Files that came \
@@ -235,10 +235,13 @@ fn there_and_back(out: &mut String, pairs: &[Pair], mut rounds: BTreeMap<(String
     out.push_str("|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
     let lost: Lost = toml::from_str(&support::text("tests/support/rounds.toml")).unwrap();
     let (mut why, mut unknown) = (BTreeSet::new(), Vec::new());
-    // The kind of machine of both stays what it is, and the project file names one way of a lathe.
-    for pair in pairs.iter().filter(|pair| !pair.lathe) {
-        let rounds::Round { from, to, inputs, there, back, files, same_there, same_back, changed } =
-            rounds.remove(&(pair.from.clone(), pair.to.clone())).expect("each pair goes round");
+    // In the order of the conversions; more ways of lathes go round than the project file names.
+    rounds.sort_by_key(|round| {
+        let at = pairs.iter().position(|pair| (&pair.from, &pair.to) == (&round.from, &round.to));
+        at.unwrap_or(usize::MAX)
+    });
+    for round in rounds {
+        let rounds::Round { from, to, inputs, there, back, files, same_there, same_back, changed } = round;
         assert!(changed.is_empty(), "{from} to {to}: texts that went round twice change: {changed:?}");
         let [same, undecided, different] = [Verdict::Same, Verdict::Undecided, Verdict::Different]
             .map(|verdict| back.programs.iter().filter(|p| p.verdict == Some(verdict)).count());

@@ -2,8 +2,10 @@
 
 use crate::support::root;
 use macroglot::control::LoadedFile;
-use macroglot::dialect::{Control, Profile, Question, registry};
-use macroglot::library::{Conversion, Input, Lock, Options, Outcome, ProgramReport, Project, convert, judge};
+use macroglot::dialect::{Control, Plain, Profile, Question, registry};
+use macroglot::library::{
+    Conversion, Input, Lock, Options, Outcome, ProgramReport, Project, convert, gather, judge,
+};
 use macroglot::syntax::{ParsedFile, parse_file};
 use macroglot::verify::{Effort, Side};
 use std::collections::{BTreeMap, BTreeSet};
@@ -59,21 +61,57 @@ fn machine(name: &str, unit: &str) -> Control {
 pub fn round(from: &str, to: &str, inputs: &[Input]) -> Round {
     // The course's programs are metric, and so is their machine; all others measure in inches.
     let unit = if from == "cc100" { "metric" } else { "inch" };
-    let (home, away) = (machine(from, unit), machine(to, unit));
-    let first = plain(inputs, &home, &away);
+    between((from, to), &machine(from, unit), &machine(to, unit), inputs)
+}
+
+/// Takes the lathe programs of the project file to other lathes and back: to the one that the file names, and to their own
+/// control with its other two systems of G codes.
+pub fn turning() -> Vec<Round> {
+    let project = Project::find(root()).unwrap().unwrap();
+    let library = &project.libraries["turning"];
+    let own = library.only.iter().flatten().map(|name| library.path.join(name));
+    let files: Vec<_> = own.chain(library.shared.iter().cloned()).map(|path| root().join(path)).collect();
+    let inputs = gather(&files, &[]).programs;
+    let profile = |machine: &str| {
+        let path = project.machines[machine].profile.as_ref().unwrap();
+        Profile::load(&root().join(path)).unwrap()
+    };
+    let control =
+        |profile: Profile| Control::new(registry::find(&profile.dialect).unwrap(), profile).unwrap();
+    let mut home = profile(&library.machine);
+    // What the shop keeps for itself the programs have been given.
+    home.reserved.clear();
+    let system = |name: &str| {
+        let mut other = home.clone();
+        other.settings.insert("gcode_system".into(), Plain::Word(name.into()));
+        control(other)
+    };
+    let target = library.targets.keys().next().unwrap();
+    let ways = [
+        ("haas lathe", control(profile(target))),
+        ("fanuc lathe B", system("B")),
+        ("fanuc lathe C", system("C")),
+    ];
+    let home = control(home.clone());
+    let round = |(to, away): (&str, Control)| between(("fanuc lathe", to), &home, &away, &inputs);
+    ways.into_iter().map(round).collect()
+}
+
+fn between((from, to): (&str, &str), home: &Control, away: &Control, inputs: &[Input]) -> Round {
+    let first = plain(inputs, home, away);
     let there = inputs_of(inputs, &first);
-    let second = plain(&there, &away, &home);
-    let mut back = composed((inputs, &first), (&there, &second), &home, &away);
-    judge(inputs, &mut back, &home, &home, EFFORT);
+    let second = plain(&there, away, home);
+    let mut back = composed((inputs, &first), (&there, &second), home, away);
+    judge(inputs, &mut back, home, home, EFFORT);
     let home_again = inputs_of(&there, &second);
-    let there_again = inputs_of(&home_again, &plain(&home_again, &home, &away));
-    let back_again = inputs_of(&there_again, &plain(&there_again, &away, &home));
+    let there_again = inputs_of(&home_again, &plain(&home_again, home, away));
+    let back_again = inputs_of(&there_again, &plain(&there_again, away, home));
     // The same texts as the time before become the same again.
     let back_thrice = if back_again == home_again {
         back_again.clone()
     } else {
-        let there_thrice = inputs_of(&back_again, &plain(&back_again, &home, &away));
-        inputs_of(&there_thrice, &plain(&there_thrice, &away, &home))
+        let there_thrice = inputs_of(&back_again, &plain(&back_again, home, away));
+        inputs_of(&there_thrice, &plain(&there_thrice, away, home))
     };
     let settled = |input: &&Input| !back_again.contains(input);
     let changed = back_thrice.iter().filter(settled).map(|input| input.name.clone()).collect();
