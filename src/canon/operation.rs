@@ -279,6 +279,10 @@ super::vocabulary! {
         SideTap = "hole.side.tap",
         /// Bores along X, feed out.
         SideBore = "hole.side.bore",
+        /// Runs the drilling cycle in force at places round the circle whose centre is where the tool stands.
+        HolesCircle = "holes.circle",
+        /// The same at places on an arc, by an angle between them.
+        HolesArc = "holes.arc",
         /// A cycle that only this family of controls has; never carried across.
         CycleOther = "cycle.other",
         /// Absolute coordinates.

@@ -90,6 +90,14 @@ super::vocabulary! {
         CycleI = "cycle.i",
         /// Shift in Y of a fine boring cycle.
         CycleJ = "cycle.j",
+        /// Radius of a circle of holes.
+        HolesRadius = "holes.radius",
+        /// Angle of the first hole of a circle, counterclockwise from the first axis of the plane.
+        HolesStart = "holes.start",
+        /// Angle between the holes on an arc.
+        HolesStep = "holes.step",
+        /// How many holes are on a circle or an arc.
+        HolesCount = "holes.count",
         /// Lead of a thread.
         Lead = "lead",
         /// Angle of the spindle at which a thread begins, thousandths of a degree.
@@ -294,6 +302,7 @@ impl Role {
                 | Role::RadiusOffset
                 | Role::WorkOffset
                 | Role::Repeat
+                | Role::HolesCount
                 | Role::Program
                 | Role::Sequence
                 | Role::CallCount
@@ -312,7 +321,15 @@ impl Role {
     pub const fn is_angle(self) -> bool {
         matches!(
             self,
-            Role::A | Role::B | Role::C | Role::StepC | Role::Angle | Role::PolarAngle | Role::LineAngle
+            Role::A
+                | Role::B
+                | Role::C
+                | Role::StepC
+                | Role::Angle
+                | Role::PolarAngle
+                | Role::LineAngle
+                | Role::HolesStart
+                | Role::HolesStep
         )
     }
 
@@ -374,6 +391,7 @@ impl Role {
                 | Role::CycleI
                 | Role::CycleJ
                 | Role::PolarDistance
+                | Role::HolesRadius
                 | Role::OffsetValue
                 | Role::OffsetNose
         )

@@ -5,6 +5,8 @@ done (seed 002:1496).
 
 from decimal import ROUND_HALF_UP, Decimal
 
+import math
+
 from motion import INCH, Motion, cos, sin
 
 FRAME = {1: (300.0, 150.0, -100.0)}
@@ -253,6 +255,20 @@ for turn in range(1, 6):
 part.feed(0.0)
 part.rapid(z=5.0)
 part.to("fanuc", "calls/repeats.rs")
+
+part = Milled("hole-circles", "Twelve holes on a circle of 5 about (0, 0) from 15 degrees on, then four on an arc of 3 about (1, 2), from 90\n"
+                              "degrees on by 22.5, clockwise (manual of 2017, p. 286, p. 287). L0 stores the cycle.")
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(z=1.0)
+for (cx, cy), radius, start, step, count in (((0.0, 0.0), 5.0, 15.0, 30.0, 12), ((1.0, 2.0), 3.0, 90.0, -22.5, 4)):
+    part.rapid(cx, cy)
+    for at in range(count):
+        angle = math.radians(start + at * step)
+        x, y = round(cx + radius * math.cos(angle), 4), round(cy + radius * math.sin(angle), 4)
+        part.hole(x, y, r=0.1, bottom=-1.0, back=1.0, f=15.0)
+part.rapid(0.0, 0.0)
+part.to("fanuc", "cycles/hole_circles.rs")
 
 part = Milled("way-back", "G28 goes by (30, 40) to the reference position, and G29 by that point to (50, 60) (manual of 2017, p. 263).",
               metric=True, home=(7.0, 8.0, 0.0))

@@ -119,7 +119,7 @@ pub(super) fn across(command: &Command, along: usize) -> Command {
 }
 
 /// Drills at the present place.
-fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
+pub(super) fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
     let Some(mut cycle) = machine.cycle.clone() else { return Ok(()) };
     if cycle.without_dwell {
         // The dwell that an earlier cycle was given is none of this one.

@@ -14,6 +14,7 @@ mod entry;
 mod exit_state;
 mod expand;
 mod frame;
+mod holes;
 mod lathe;
 mod motion;
 mod offsets;

@@ -2,7 +2,7 @@
 
 use super::command::is_rotary;
 use super::tooling::LostBy;
-use super::{Command, Machine, arc, cycle, lathe};
+use super::{Command, Machine, arc, cycle, holes, lathe};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
@@ -67,6 +67,9 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             }
             Op::FaceGroove | Op::Groove => {
                 return lathe::groove::run(machine, op, command, trace).map(|()| false);
+            }
+            Op::HolesCircle | Op::HolesArc => {
+                return holes::run(machine, op, command, trace).map(|()| false);
             }
             Op::Threading => return lathe::thread::many(machine, command, trace).map(|()| false),
             Op::ReferenceFrom => {

@@ -70,7 +70,7 @@ impl Machine {
     }
 
     /// The least increment of a length, in the units of the program.
-    fn least_length(&self) -> f64 {
+    pub(super) fn least_length(&self) -> f64 {
         if self.inch { self.rounding.increment_inch } else { self.rounding.increment_mm }
     }
 

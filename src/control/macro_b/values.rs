@@ -94,7 +94,7 @@ impl<'c> Runner<'c> {
     pub fn increment_of(&self, role: Role) -> Option<f64> {
         if role.is_length() {
             Some(self.length_increment())
-        } else if role.is_axis() || matches!(role, Role::Angle | Role::PolarAngle | Role::LineAngle) {
+        } else if role.is_axis() || role.is_angle() {
             Some(self.rules.increment_degrees)
         } else {
             None

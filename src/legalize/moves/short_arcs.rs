@@ -30,6 +30,7 @@ use crate::legalize::{Context, calls_of};
 use crate::text::Span;
 use plan::{Library, Plan};
 use shape::{Arc, Size};
+pub(in crate::legalize) use starts::stands;
 pub(super) use starts::{Vacant, vacant};
 use std::collections::BTreeSet;
 use turn::Turn;

@@ -2,7 +2,7 @@
 
 use super::Pass;
 use crate::canon::{Op, Role};
-use crate::legalize::cycles::{tap_leads, tapping};
+use crate::legalize::cycles::{hole_circles, tap_leads, tapping};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, rotations, shaped, shift,
@@ -26,6 +26,9 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
         .when(|c, _| c.has(Feature::Increments)),
+    Pass::edits("hole-circles", "holes on a circle get blocks of their own", hole_circles::run)
+        .when(|c, _| hole_circles::concerns(c))
+        .needs(&["increments"]),
     Pass::edits("word-rounds", "ROUND in words becomes arithmetic", word_rounds::run)
         .when(word_rounds::concerns),
     Pass::rewrites("table-writes", "offset tables are written as state", table_writes::run)

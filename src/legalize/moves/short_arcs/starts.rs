@@ -100,7 +100,7 @@ impl Kept {
 }
 
 /// True for a block that leaves alone what coordinates count from.
-fn stands(nc: &Nc) -> bool {
+pub fn stands(nc: &Nc) -> bool {
     nc.ops().all(keeps) && !nc.items.iter().any(|item| matches!(item, NcItem::Code(..)))
 }
 

@@ -1,0 +1,180 @@
+//! Holes on a circle or an arc that one block names.
+//!
+//! Law: such a block runs the drilling cycle in force at places round the place where the tool stands; so do blocks with these
+//! places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
+//! place is known from absolute words before in the same stretch of blocks, the plane is that of X and Y, coordinates are
+//! absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Units;
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::legalize::features::Features;
+use crate::legalize::moves::short_arcs::stands;
+use crate::legalize::{Context, Modal};
+
+/// More holes than this are a slip.
+const MOST: f64 = 1000.0;
+
+/// True where the library has such blocks.
+pub fn concerns(features: &Features) -> bool {
+    features.any_op(is_pattern)
+}
+
+fn is_pattern(op: Op) -> bool {
+    matches!(op, Op::HolesCircle | Op::HolesArc)
+}
+
+/// Writes the places out, and refuses what cannot be; true where any were written.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let facts = context.modal_facts(module);
+    let mut changed = false;
+    for index in 0..module.programs.len() {
+        if !context.may_concern(index, concerns) {
+            continue;
+        }
+        for (at, block) in module.programs[index].blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            let mut place = Place::default();
+            let mut out = Stmts::with_capacity(block.stmts.len());
+            for stmt in std::mem::take(&mut block.stmts) {
+                state.step(&stmt);
+                if !stmt.kind.nc().is_some_and(|nc| nc.ops().any(is_pattern)) {
+                    place.step(&stmt, &state);
+                    out.push(stmt);
+                    continue;
+                }
+                changed = true;
+                let units = context.source.units();
+                match holes(&stmt, &state, place, units) {
+                    Ok(holes) => {
+                        place = Place(holes.last().copied().map_or(place.0, |last| last.map(Some)));
+                        out.extend(written(&stmt, &holes));
+                    }
+                    Err(why) => {
+                        let what = format!("holes on a circle cannot be written out: {why}");
+                        let help = "write the places of the holes into blocks of their own";
+                        let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
+                        context.add(index, finding.with_help(help));
+                        place = Place::default();
+                        let kind = StmtKind::not_converted(Code::NoEquivalent.number());
+                        out.push(Stmt { kind, site: stmt.site });
+                    }
+                }
+            }
+            block.stmts = out;
+        }
+    }
+    changed
+}
+
+/// Where the tool stands along X and Y, in the numbers of the program.
+#[derive(Clone, Copy, Default)]
+struct Place([Option<f64>; 2]);
+
+impl Place {
+    /// Takes a statement's effect; `after` is what is in force after it.
+    fn step(&mut self, stmt: &Stmt, after: &Modal) {
+        let Some(nc) = stmt.kind.nc() else { return };
+        let counts_anew = |op: Op| matches!(op.group(), Group::WorkOffset | Group::Units | Group::Plane);
+        let rest: Vec<NcItem> = nc
+            .items
+            .iter()
+            .filter(|item| !matches!(item, NcItem::Op(op) if counts_anew(*op)))
+            .cloned()
+            .collect();
+        let anew = rest.len() < nc.items.len();
+        let is_known = stands(&Nc { items: rest.into_iter().collect() }) && !after.may_call();
+        let before = *self;
+        for (axis, role) in [Role::X, Role::Y].into_iter().enumerate() {
+            let absolute = after.op(Group::Distance) == Some(Op::Absolute);
+            self.0[axis] = match nc.word(role) {
+                _ if !is_known => None,
+                Some(word) => word.constant().filter(|_| absolute),
+                None if anew => None,
+                None => before.0[axis],
+            };
+        }
+        if stmt.site.skip.is_some() && self.0 != before.0 {
+            *self = Self::default();
+        }
+    }
+}
+
+/// The places of the holes; why not, where they cannot be told.
+fn holes(
+    stmt: &Stmt,
+    state: &Modal,
+    place: Place,
+    units: Option<Units>,
+) -> Result<Vec<[f64; 2]>, &'static str> {
+    let StmtKind::Nc(nc) = &stmt.kind else { return Ok(Vec::new()) };
+    let own = |item: &NcItem| match item {
+        NcItem::Op(op) => is_pattern(*op),
+        NcItem::Word(role, _) => {
+            matches!(role, Role::HolesRadius | Role::HolesStart | Role::HolesStep | Role::HolesCount)
+        }
+        NcItem::Code(..) => false,
+    };
+    if !nc.items.iter().all(own) || stmt.site.skip.is_some() {
+        return Err("give the code a block of its own, without a block skip");
+    }
+    let word = |role| match nc.word(role) {
+        Some(word) => word.constant().map(Some).ok_or("its words are computed"),
+        None => Ok(None),
+    };
+    let (radius, count) = (word(Role::HolesRadius)?, word(Role::HolesCount)?);
+    let (start, step) = (word(Role::HolesStart)?.unwrap_or(0.0), word(Role::HolesStep)?);
+    let (Some(radius), Some(count)) = (radius, count) else {
+        return Err("it has no radius or no number of holes");
+    };
+    if count < 1.0 || count > MOST || count.fract() != 0.0 {
+        return Err("the number of holes is none");
+    }
+    let step = match step {
+        _ if nc.ops().any(|op| op == Op::HolesCircle) => 360.0 / count,
+        Some(step) => step,
+        None => return Err("it has no angle between the holes"),
+    };
+    match state.op(Group::Cycle) {
+        Some(op) if op.is_cycle() => {}
+        Some(_) => return Err("no drilling cycle is in force"),
+        None => return Err("it is not known here which drilling cycle is in force"),
+    }
+    if state.op(Group::Plane) != Some(Op::PlaneXy) || state.op(Group::Distance) != Some(Op::Absolute) {
+        return Err("it is not known here that G17 and G90 are in force");
+    }
+    if state.may_call() {
+        return Err("a macro is called after each move");
+    }
+    let [Some(x), Some(y)] = place.0 else {
+        return Err("it is not known here where the tool stands: write X and Y as numbers before it");
+    };
+    let inch = match (state.op(Group::Units), units) {
+        (Some(op), _) => op == Op::Inch,
+        (None, Some(units)) => units == Units::Inch,
+        (None, None) => return Err("it is not known here whether lengths are inches or millimetres"),
+    };
+    let parts = if inch { 10_000.0 } else { 1000.0 };
+    let counted = |place: f64| (place * parts).round() / parts;
+    let hole = |at: u32| {
+        let angle = step.mul_add(f64::from(at), start).to_radians();
+        [counted(radius.mul_add(angle.cos(), x)), counted(radius.mul_add(angle.sin(), y))]
+    };
+    Ok((0..count as u32).map(hole).collect())
+}
+
+/// A block for each hole; the first is where the block with them stood.
+fn written(stmt: &Stmt, holes: &[[f64; 2]]) -> Vec<Stmt> {
+    let block = |(at, [x, y]): (usize, &[f64; 2])| {
+        let words = [(Role::X, *x), (Role::Y, *y)];
+        let items = words.map(|(role, value)| NcItem::Word(role, Expr::Number(value)));
+        let site = if at == 0 {
+            stmt.site.clone()
+        } else {
+            SourceInfo { span: stmt.site.span, ..SourceInfo::default() }
+        };
+        Stmt { kind: StmtKind::Nc(Nc { items: items.into_iter().collect() }), site }
+    };
+    holes.iter().enumerate().map(block).collect()
+}
