@@ -265,13 +265,19 @@ fn as_run(name: &ProgramName) -> String {
     name.short().into_owned()
 }
 
-/// The programs that a block may call: those whose numbers stand in its P words, and cycles that a code of theirs calls.
+/// The programs that a block may call: those whose numbers stand in its P words, those that parameters make its codes call, and
+/// cycles that a code of theirs calls.
 fn calls<'s>(side: &'s ProgramTexts<'_>, items: &'s [Item]) -> impl Iterator<Item = ProgramRef> + 's {
     items.iter().filter_map(|item| {
         let ItemKind::Word(word) = &item.kind else { return None };
         let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else {
             return None;
         };
+        if matches!(word.letter, 'G' | 'M' | 'T')
+            && let Some(alias) = side.control.alias(word.letter, number.value)
+        {
+            return side.numbered(alias.program);
+        }
         if word.letter == 'G' {
             let row = side.control.code('G', number.value, &[]).filter(|row| row.op == Op::CallCycle);
             return row.and_then(|_| side.library.cycle((number.value % 100.0) as u32));

@@ -51,6 +51,17 @@ fn a_program_that_calls_itself_is_not_one_that_others_call() {
     });
 }
 
+/// A program that parameters make a code call is no main program.
+#[test]
+fn what_a_code_calls_is_called() {
+    let control = Control::from_profile("dialect = \"fanuc\"\n[parameters]\n6071 = 201\n6050 = 183").unwrap();
+    on(&control, "O1\nM201\nG183 X1.\nM30\nO9001\nM99\nO9010\nM99\nO9002\nM99\n", |side| {
+        assert_eq!(side.links().callees(nth(0)), [nth(1), nth(2)]);
+        assert!(side.links().is_called(nth(1)) && side.links().is_called(nth(2)));
+        assert!(!side.links().is_called(nth(3)));
+    });
+}
+
 /// A number that is written names what is called; one that is computed, and a code that nobody knows, may call anything.
 #[test]
 fn what_is_not_named_may_be_any_program() {
