@@ -25,6 +25,12 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.code.moves.nothing", "a code of a lathe that only this control has moves nothing"),
     ("machine:lathe.contour.moves", "the cycles of contours move as docs/lathe.md says"),
     ("machine:lathe.contour.steps", "increments of a contour count from where the finishing began"),
+    (
+        "machine:lathe.face.centre",
+        "a way through the centre of the spindle in polar interpolation turns C half round",
+    ),
+    ("machine:lathe.face.plane", "a code of a plane in polar interpolation does nothing"),
+    ("machine:lathe.face.rapid", "a rapid move in polar interpolation goes straight in its plane"),
     ("machine:lathe.groove.moves", "the cycles of grooves and pecks move as docs/lathe.md says"),
     ("machine:lathe.hole.moves", "the drilling cycles of a lathe move as docs/lathe.md says"),
     ("machine:lathe.home.without.axes", "a return without axes takes all axes home at once"),

@@ -1,7 +1,7 @@
 //! Arcs.
 
 use super::rules::NoCentre;
-use super::{Command, Machine};
+use super::{Command, Machine, lathe};
 use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::Axes;
@@ -25,7 +25,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     let flat_of = |at: &Axes| (at[first] * scale(first), at[second] * scale(second));
     let from = machine.frame.program(&machine.position);
     let to = machine.frame.program(&end);
-    let clockwise = machine.motion == Op::ArcCw;
+    let clockwise = (machine.motion == Op::ArcCw) != lathe::surface::flips(machine);
     let flat = Flat { from: flat_of(&from), to: flat_of(&to), clockwise };
     let centre = if has_centre(command) {
         flat.centre(machine, command, trace)?
@@ -89,7 +89,8 @@ pub(super) fn turn(
     }
     machine.position = end;
     if machine.rules.lathe {
-        super::lathe::time::arc(machine, &start, &middle, sweep, trace);
+        lathe::surface::arc(machine, &start, &middle, sweep, trace);
+        lathe::time::arc(machine, &start, &middle, sweep, trace);
     } else {
         machine.pass(radius * sweep.abs().to_radians());
     }

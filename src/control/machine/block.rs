@@ -9,6 +9,8 @@ use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, Trace};
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let unrolled = if machine.rules.lathe { lathe::surface::block(machine, command, trace)? } else { None };
+    let command = unrolled.as_ref().unwrap_or(command);
     if machine.frame.is_shaped() && command.ops.iter().any(|op| is_of_frame(*op)) {
         machine.rules.frame_codes_when_shaped.ask(trace);
     }

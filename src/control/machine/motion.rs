@@ -263,6 +263,9 @@ impl Machine {
     pub(super) fn rapid_to(&mut self, to: Axes, trace: &mut Trace) {
         let from = std::mem::replace(&mut self.position, to);
         if from != to {
+            if self.rules.lathe {
+                lathe::surface::line(self, &from, &to, trace);
+            }
             trace.push(EventKind::Rapid { from: Position(from), to: Position(to) });
         }
     }
@@ -272,6 +275,7 @@ impl Machine {
         let from = std::mem::replace(&mut self.position, to);
         if from != to {
             if self.rules.lathe {
+                lathe::surface::line(self, &from, &to, trace);
                 lathe::time::straight(self, &from, &to, trace);
             } else {
                 self.pass(distance(&from, &to));

@@ -58,7 +58,8 @@ impl Machine {
         if increment <= 0.0 || !value.is_finite() {
             return 0.0;
         }
-        let own = (value - (value / increment).round() * increment).abs();
+        let unrolled = matches!(role, Role::Y | Role::StepY) && self.unrolls();
+        let own = if unrolled { 0.0 } else { (value - (value / increment).round() * increment).abs() };
         let told = command.rounded.iter().filter(|(found, _)| *found == role).map(|(_, by)| *by);
         let off = told.fold(own, f64::max);
         match (off < WHOLE, turns) {

@@ -142,6 +142,8 @@ pub struct Rules {
     pub roughing_along: Fact<bool>,
     /// A peck of a lathe's drilling cycle goes back to its retract plane, or by the clearance; none where nobody says it (Q7).
     pub pecks_to_plane: Fact<Option<bool>>,
+    /// A face is milled with C in words of X as a diameter and C as a length; else of X as a radius and Y; none where nobody says it (V1).
+    pub face_by_c: Fact<Option<bool>>,
     /// The settings of a lathe.
     pub turning: Turning,
 }
@@ -251,6 +253,12 @@ impl Rules {
                 control,
                 Question::HolePecks,
                 |value| ["plane", "clearance"].contains(&value).then_some(Some(value == "plane")),
+                None,
+            ),
+            face_by_c: fact(
+                control,
+                Question::PolarWords,
+                |value| ["x.c", "x.y"].contains(&value).then_some(Some(value == "x.c")),
                 None,
             ),
             turning: Turning::new(control),

@@ -35,6 +35,18 @@ impl Machine {
             // In what it is read then no source says.
             return None;
         }
+        let place = matches!(
+            state,
+            Sys::EndPosition
+                | Sys::WorkPosition
+                | Sys::MachinePosition
+                | Sys::SkipPosition
+                | Sys::AxisPosition
+        );
+        if place && self.lathe.surface.is_some() {
+            // In the plane or at the axes: no source says it (V9).
+            return None;
+        }
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             if self.rules.lathe && subscripts.last() == Some(&1) {
                 // Whether the number is a radius or a diameter no source says.

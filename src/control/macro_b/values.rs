@@ -92,7 +92,7 @@ impl<'c> Runner<'c> {
 
     /// The least increment that the values of a role have, in the units in force.
     pub fn increment_of(&self, role: Role) -> Option<f64> {
-        if role.is_length() {
+        if role.is_length() || self.session.machine.takes_length(role) {
             Some(self.length_increment())
         } else if role.is_axis() || role.is_angle() {
             Some(self.rules.increment_degrees)

@@ -41,8 +41,7 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
 
 fn is_refused(op: Op) -> bool {
     use Op::*;
-    let shapes = matches!(op, ScaleOn | MirrorOn | RotateOn | PolarOn | Pole | Wrap | PlaneOther)
-        || matches!(op, PolarPlane | PolarPlaneOff | Cylinder);
+    let shapes = matches!(op, ScaleOn | MirrorOn | RotateOn | PolarOn | Pole | Wrap | PlaneOther);
     let offsets =
         matches!(op, LengthPlus | LengthMinus | OffsetPlus | OffsetMinus | OffsetPlus2 | OffsetMinus2);
     shapes || offsets || matches!(op, ArcTangent | ReferenceFrom | Home | ProbeOther | FeedInverse)
@@ -82,7 +81,7 @@ fn tool_word(command: &Command) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Arcs are made in the plane of Z and X (C6); compensation does not begin in one (Q1).
+/// Arcs are made in the plane of Z and X (C6), or in that of a surface that is milled with C (V3, V8); compensation does not begin in one (Q1).
 fn arcs(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     let motion = command.of(Group::Motion).unwrap_or(machine.motion);
     if !matches!(motion, Op::ArcCw | Op::ArcCcw) || !command.has_axes() {
@@ -90,8 +89,12 @@ fn arcs(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<(), S
     }
     let plane = command.of(Group::Plane);
     let zx = plane.map_or(machine.plane == crate::control::trace::Plane::Zx, |op| op == Op::PlaneZx);
-    if !zx {
-        return Err(Stop::unnamed("an arc outside the plane of Z and X"));
+    let there = super::surface::arcs(machine).unwrap_or(zx);
+    if !there {
+        return Err(Stop::unnamed(match machine.lathe.surface {
+            Some(_) => "an arc outside the plane of the milling with C",
+            None => "an arc outside the plane of Z and X",
+        }));
     }
     if command.has(Op::RadiusLeft) || command.has(Op::RadiusRight) {
         trace.rounded = machine.off_by();

@@ -17,6 +17,7 @@ mod rough;
 pub(super) mod settings;
 mod shape;
 mod stretches;
+pub(super) mod surface;
 pub(super) mod thread;
 pub(super) mod time;
 pub(super) mod turret;
@@ -100,6 +101,8 @@ pub(super) struct Lathe {
     pub last_dwell: Option<f64>,
     /// True after a cycle, until a code of motion stands in a block.
     pub after_cycle: bool,
+    /// The face or the side that is milled while C follows.
+    pub surface: Option<surface::Surface>,
 }
 
 /// Takes the words of a block that only sets what the next cycle takes (R1, G10, P1).

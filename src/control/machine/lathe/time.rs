@@ -33,6 +33,13 @@ pub fn straight(machine: &mut Machine, from: &Axes, to: &Axes, trace: &mut Trace
 
 /// Lets the time of an arc pass; its start and middle are machine coordinates, the angle is in degrees.
 pub fn arc(machine: &mut Machine, start: &Axes, middle: &Axes, sweep: f64, trace: &mut Trace) {
+    if machine.lathe.surface.is_some() {
+        let (first, second, _) = machine.plane.axes();
+        let way = |axis: usize| (start[axis] - middle[axis]) * machine.real(axis);
+        let radius = way(first).hypot(way(second));
+        let x = start[0] - machine.frame.shift(0);
+        return feed(machine, radius * sweep.to_radians().abs(), trace, |turns| turns.minutes(x));
+    }
     let (up, along) = ((start[0] - middle[0]) / 2.0, start[2] - middle[2]);
     let (radius, angle) = (up.hypot(along), up.atan2(along));
     let sweep = sweep.to_radians();
