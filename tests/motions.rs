@@ -227,7 +227,7 @@ fn lathes_move_as_their_parts_say() {
 /// Lathes with driven tools and a C axis, corners and angles of lines.
 #[test]
 fn live_tools_move_as_their_parts_say() {
-    lathes_move_as("tests/motions/expected-live", 24);
+    lathes_move_as("tests/motions/expected-live", 29);
 }
 
 /// Holds the lists of a folder, at least so many, against the emulated lathes.

@@ -4,6 +4,7 @@ import os
 
 import cc100  # noqa: F401  each module fills motion.ALL
 import dimensions  # noqa: F401
+import faces  # noqa: F401
 import fadal  # noqa: F401
 import fanuc  # noqa: F401
 import haas  # noqa: F401

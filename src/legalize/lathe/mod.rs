@@ -5,6 +5,7 @@ pub mod corners;
 pub mod counts;
 mod cycle_values;
 pub mod cycle_words;
+pub mod faces;
 pub mod hole_codes;
 pub mod hole_returns;
 pub mod holes;

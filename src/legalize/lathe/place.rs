@@ -158,7 +158,15 @@ impl Place {
 fn is_plain(op: Op) -> bool {
     let elsewhere = matches!(
         op,
-        Op::MachineOnce | Op::ReferenceReturn | Op::Reference2 | Op::ReferenceFrom | Op::Home | Op::Probe
+        Op::MachineOnce
+            | Op::ReferenceReturn
+            | Op::Reference2
+            | Op::ReferenceFrom
+            | Op::Home
+            | Op::Probe
+            | Op::PolarPlane
+            | Op::PolarPlaneOff
+            | Op::Cylinder
     );
     let frame =
         matches!(op.group(), Group::WorkOffset | Group::Units | Group::Distance) || op == Op::TurretIndex;

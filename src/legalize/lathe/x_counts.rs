@@ -70,6 +70,7 @@ fn half(value: &Expr) -> Option<Expr> {
     match value {
         Expr::Number(number) => Some(Expr::Number(number / 2.0)),
         Expr::Increments(count) => Some(Expr::Increments(count / 2.0)),
+        Expr::Negate(inner) if inner.may_be_vacant() => None,
         value if value.may_be_vacant() => None,
         value => Some(Expr::binary(BinOp::Div, value.clone(), Expr::Number(2.0))),
     }

@@ -5,8 +5,8 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    contours, corners, counts, cycle_words, hole_codes, hole_returns, holes, interpolations, lone_steps,
-    rapid_in_force, roughing, steps, unit_agrees, x_counts,
+    contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes, interpolations,
+    lone_steps, rapid_in_force, roughing, steps, unit_agrees, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -23,10 +23,15 @@ pub(super) const HOLE_CODES: Pass = Pass::reports(
 
 pub(super) const INTERPOLATIONS: Pass = Pass::reports(
     "interpolations",
-    "refuses milling with the C axis that the target is told otherwise",
+    "reports what milling with the C axis on a face rests on",
     interpolations::run,
 )
 .when(interpolations::concerns);
+
+pub(super) const FACES: Pass =
+    Pass::edits("faces", "milling with the C axis on a face is told in the words of the target", faces::run)
+        .when(faces::concerns)
+        .needs(&["start", "beside-moves"]);
 
 pub(super) const LATHE: &[Pass] = &[
     Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)

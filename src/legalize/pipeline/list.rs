@@ -204,6 +204,7 @@ const BLOCKS: &[Pass] = &[
     Pass::edits("pauses", "what the source ends at a stop is ended before it", pauses::run)
         .when(|c, context| pauses::concerns(c, &context.entry))
         .needs(&["beside-moves"]),
+    super::lathe::FACES,
 ];
 
 const CALLS: &[Pass] = &[

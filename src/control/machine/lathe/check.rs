@@ -2,7 +2,7 @@
 
 use super::alarm;
 use crate::canon::{Group, Op, Role};
-use crate::control::machine::{Command, Machine};
+use crate::control::machine::{Command, Machine, arc};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
 
@@ -84,7 +84,8 @@ fn tool_word(command: &Command) -> Result<(), Stop> {
 /// Arcs are made in the plane of Z and X (C6), or in that of a surface that is milled with C (V3, V8); compensation does not begin in one (Q1).
 fn arcs(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     let motion = command.of(Group::Motion).unwrap_or(machine.motion);
-    if !matches!(motion, Op::ArcCw | Op::ArcCcw) || !command.has_axes() {
+    let whole = machine.lathe.surface.is_some() && arc::has_centre(command);
+    if !matches!(motion, Op::ArcCw | Op::ArcCcw) || !(command.has_axes() || whole) {
         return Ok(());
     }
     let plane = command.of(Group::Plane);
