@@ -30,7 +30,7 @@ const EFFORT: Effort = Effort {
     allowed_mm: 0.0,
 };
 
-const FANUC: &str = "machine=\"lathe\";units=\"metric\";decimal_point=\"calculator\";parameters.\"5101.2\"=1";
+const FANUC: &str = "machine=\"lathe\";units=\"metric\";decimal_point=\"calculator\";parameters.\"5101.2\"=1;axes=[\"X\",\"Z\",\"C\"]";
 const HAAS: &str = "haas[machine=\"lathe\";units=\"metric\";settings.73=\"0.5\";settings.22=\"0.5\";settings.86=\"0.05\";settings.95=\"0\";\
                     settings.99=\"0.05\"]";
 
@@ -71,7 +71,7 @@ fn program(source: &mut Source) -> String {
 const HOME: &str = "G0 X64. Z3.";
 
 fn part(source: &mut Source, number: u64, out: &mut String) {
-    let _ = match source.below(16) {
+    let _ = match source.below(17) {
         0 => {
             let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
             writeln!(out, "G90 X58. {end}{taper} F.2\nX56.\nX54.")
@@ -140,6 +140,18 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
             "G1 X{} ,A{}. F.2\nG0 X66.",
             source.pick(&["60.", "56."]),
             source.pick(&["30", "45", "135"])
+        ),
+        15 => writeln!(
+            out,
+            "#2=1.5\nG98\nG0 X50. C0.\nG12.1\nG1 X40. F200.\n{}\n{}\n{}\nG1 X50. C0.\nG13.1\nG99",
+            source.pick(&["C8.", "X30. C12.", "G3 X24. C16. R40.", "G3 X0. C20. I-20. J0."]),
+            source.pick(&[
+                "G1 X-30. C15.",
+                "G3 X-24. C18. R40.",
+                "G1 X[#2-30.] C#2",
+                "G2 X-40. C9.5 R60. Z2."
+            ]),
+            source.pick(&["G1 X-20. C-12.", "G3 X10. C-17.5 R50.", "G1 X[-8.*#2] C-14."])
         ),
         _ => writeln!(
             out,

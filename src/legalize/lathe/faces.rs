@@ -68,7 +68,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             }
             let old = std::mem::take(&mut block.stmts);
             for (place, stmt) in old.iter().enumerate() {
-                let next = old.get(place + 1).and_then(|next| next.kind.nc());
+                let next = old.get(place + 1).filter(|next| next.site.skip.is_none());
+                let next = next.and_then(|next| next.kind.nc());
                 let says = next.is_some_and(|nc| nc.ops().any(|op| op.group() == Group::Plane));
                 let (stmt, after) = face.stmt(stmt.clone(), says, vacant.contains(&(id, place)));
                 block.stmts.push(stmt);
@@ -158,10 +159,11 @@ impl Face {
             return (stmt, None);
         };
         let what = if changes(nc) { self.change(&before, nc) } else { self.inside(&before, nc, vacant) };
-        let what = what.or((changes(nc) && stmt.site.skip.is_some()).then_some(MODE));
         let begins = nc.has(Op::PolarPlane);
+        let acts = begins || changes(nc) && before.mode != Mode::Off;
+        let what = what.or((acts && stmt.site.skip.is_some()).then_some(MODE));
         let plane = match (begins, self.by_c) {
-            _ if !changes(nc) || before.mode == Mode::Off && !begins => None,
+            _ if !changes(nc) || before.mode != Mode::On && !begins => None,
             (true, true) => {
                 before.plane.map_or(Some(Op::PlaneXy), |plane| (plane != Op::PlaneXy).then_some(Op::PlaneXy))
             }

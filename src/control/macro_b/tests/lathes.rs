@@ -56,7 +56,22 @@ fn what_the_page_does_not_describe_is_refused_by_name() {
         ("G1 ,A45. F.1", "by its angle alone"),
         ("G1 X40. A45. F.1", "axis.a"),
         ("G36 X40.", "G36"),
-        ("G12.1", "interpolation.polar.on"),
+        // V2 and V4: polar interpolation.
+        ("G12.1 X40.", "not alone in its block"),
+        ("G42\nG12.1", "radius of the tool is compensated"),
+        ("G12.1\nG0 X40.", "rapid traverse in polar interpolation"),
+        ("G12.1\nG1 X40. F9.\nG54", "wcs.select in polar interpolation"),
+        ("G12.1\nG1 X40. F9.\nT0202", "tool.turret.index in polar interpolation"),
+        ("G12.1\nG1 X40. ,R1. F9.", "corner.radius in polar interpolation"),
+        ("G12.1\nG1 X40. F9.\nG12.1", "in force already"),
+        ("G12.1\nG7.1 C0", "that another code began"),
+        ("G12.1\nG3 X40. C2. K3. F9.", "arc.k in polar interpolation"),
+        // V6 to V8: cylinders.
+        ("G7.1 C-3.", "left out, or negative"),
+        ("G7.1 C30.\nG0 Z-2.", "rapid traverse in cylindrical interpolation"),
+        ("G7.1 C30.\nG3 Z-2. C9. I1. F9.", "arc.i in cylindrical interpolation"),
+        ("G17\nG7.1 C30.\nG3 Z-2. C9. R9. F9.", "outside the plane"),
+        ("G7.1 C30.\nG3 X50. C9. R9. F9.", "X in an arc"),
         ("G83.5 Z-10. R2. F50.", "G83.5"),
         ("G68", "G68"),
         ("G1 X40. L2 F.1", "no L"),
@@ -71,6 +86,39 @@ fn what_the_page_does_not_describe_is_refused_by_name() {
     assert!(refusal(FANUC, "G28").contains("without an axis"));
     assert!(refusal(FANUC, "G53 U10.").contains("increments"));
     assert!(refusal(HAAS, "G1 X50. F.1\nG53 X10.").contains("rapid"));
+    // V1, V3 and V6 on the other lathe.
+    assert!(refusal(HAAS, "G0 C30.\nG112").contains("does not stand at 0"));
+    assert!(refusal(HAAS, "G112\nG1 X20. C3. F9.").contains("axis.c in polar"));
+    assert!(refusal(HAAS, "G112\nG1 U-4. F9.").contains("step.x in polar"));
+    assert!(refusal(HAAS, "G112\nG1 X20. F9.\nG3 X0. Y20. R20.").contains("outside the plane"));
+    assert!(refusal(HAAS, "G107").contains("G107"));
+}
+
+#[test]
+fn milling_with_c_takes_the_time_of_its_way() {
+    // V4: from x 30 to 20 and y 0 to 10, a hypotenuse of sqrt(200) at 60 a minute; V7: 90 degrees round a radius of 20 are 10 pi.
+    let text = "O1\nG98\nG0 X60. Z2. C0.\nG12.1\n#1=#3001\nG1 X40. F60.\n#100=#3001-#1\n#1=#3001\nX20. C10.\n#101=#3001-#1\nX40. C0.\nG13.1\n\
+                G7.1 C20.\n#1=#3001\nG1 C90.\n#102=#3001-#1\nG7.1 C0\nG0 X70.\nM30\n";
+    let run = run(FANUC, text);
+    let near = |name: &str, seconds: f64| {
+        let took = variable(&run, name);
+        assert!((took - 1000.0 * seconds).abs() < 5.0, "{name}: {took}");
+    };
+    near("#100", 10.0);
+    near("#101", 200.0_f64.sqrt());
+    near("#102", 10.0 * std::f64::consts::PI);
+}
+
+#[test]
+fn a_way_through_the_centre_is_not_sure() {
+    let doubts = |text: &str| {
+        let run = run(FANUC, text);
+        let is_it = |what: &EventKind| matches!(what, EventKind::Unsure { fact } if fact == "machine:lathe.face.centre");
+        run.events.iter().any(|event| is_it(&event.what))
+    };
+    assert!(doubts("O1\nG98\nG0 X60. C0.\nG12.1\nG1 X-40. F60.\nG13.1\nM30\n"));
+    assert!(doubts("O1\nG98\nG0 X60. C0.\nG12.1\nG1 X0. F60.\nC5.\nG13.1\nM30\n"));
+    assert!(!doubts("O1\nG98\nG0 X60. C0.\nG12.1\nG1 X40. C-9. F60.\nG13.1\nM30\n"));
 }
 
 #[test]
