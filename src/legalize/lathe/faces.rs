@@ -3,7 +3,8 @@
 //! Law: in the plane of such milling a word of X as a diameter is twice a word of X as a radius, a word of C as a length is one of Y, and all
 //! else is alike; where one control has its plane by itself, the other one is told it (G17), and the plane of before is said again after it. Side
 //! conditions: it is known at each block whether the milling is in force, and what is in force with it; it begins where C stands at 0. Counter-examples:
-//! `X10. C5.` at a label that is jumped to from before the milling; `G1 X[#5041-2.]`, which reads a place; `U-4.`, of which no source says what it counts.
+//! `X10. C5.` at a label that is jumped to from before the milling; `G1 X[#5041-2.]`, which reads a place; `U-4.`, of which no source says what it counts, after a
+//! place that is not known.
 
 mod known;
 mod words;
@@ -236,7 +237,7 @@ impl Face {
             return Some(READS);
         }
         nc.items.retain(|item| !matches!(item, NcItem::Op(op) if op.group() == Group::Plane));
-        words::rewrite(nc, self.by_c, vacant)
+        words::rewrite(nc, self.by_c, vacant, before.at)
     }
 
     /// A statement that is no block of words.

@@ -1,5 +1,6 @@
 //! Whether milling on a face is in force, and what else is known with it, on every way through a library.
 
+use super::words::may_stand;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::Follow;
@@ -29,6 +30,10 @@ pub struct Known {
     pub plane: Option<Op>,
     /// The plane in force where it began.
     pub entered: Option<Op>,
+    /// The places that words name, where the words before say them: X, a diameter, and in the milling the length of C.
+    pub at: [Option<f64>; 2],
+    /// True where a block goes where its words say.
+    goes: bool,
 }
 
 impl Lattice for Known {
@@ -41,6 +46,10 @@ impl Lattice for Known {
         self.absolute &= other.absolute;
         self.plane = self.plane.filter(|plane| other.plane == Some(*plane));
         self.entered = self.entered.filter(|plane| other.entered == Some(*plane));
+        for (mine, theirs) in self.at.iter_mut().zip(other.at) {
+            *mine = mine.filter(|mine| theirs == Some(*mine));
+        }
+        self.goes &= other.goes;
         *self != before
     }
 }
@@ -48,7 +57,15 @@ impl Lattice for Known {
 impl Known {
     /// A run begins in no such milling, in the plane of turning, with places (C6 and D2 of docs/lathe.md).
     fn outside() -> Self {
-        Self { mode: Mode::Off, at_zero: false, absolute: true, plane: Some(Op::PlaneZx), entered: None }
+        Self {
+            mode: Mode::Off,
+            at_zero: false,
+            absolute: true,
+            plane: Some(Op::PlaneZx),
+            entered: None,
+            at: [None; 2],
+            goes: false,
+        }
     }
 
     /// Takes a statement's effect; `by_c` where the control has the plane by itself.
@@ -56,7 +73,7 @@ impl Known {
         let before = stmt.site.skip.map(|_| self.clone());
         match &stmt.kind {
             StmtKind::Nc(nc) => self.words(nc, by_c),
-            StmtKind::ModalCall(_) => self.at_zero = false,
+            StmtKind::ModalCall(_) => (self.at_zero, self.goes, self.at) = (false, false, [None; 2]),
             StmtKind::Assign { target, .. } => {
                 self.at_zero &= !matches!(target, Place::System(..) | Place::Indirect(..));
             }
@@ -74,22 +91,27 @@ impl Known {
                     if self.mode == Mode::Off {
                         self.entered = self.plane;
                     }
-                    (self.mode, self.at_zero) = (Mode::On, false);
+                    (self.mode, self.at_zero, self.at[1]) = (Mode::On, false, Some(0.0));
                 }
                 Op::PolarPlaneOff => {
                     self.at_zero &= self.mode == Mode::Off;
-                    self.mode = Mode::Off;
+                    (self.mode, self.at) = (Mode::Off, [None; 2]);
                 }
                 Op::Absolute | Op::Incremental => self.absolute = op == Op::Absolute,
                 op if op.group() == Group::Plane && !(by_c && self.mode != Mode::Off) => {
                     self.plane = Some(op)
                 }
+                op if op.group() == Group::Motion => {
+                    self.goes = matches!(op, Op::Rapid | Op::Linear | Op::ArcCw | Op::ArcCcw);
+                }
+                op if op.group() == Group::Cycle => self.goes = false,
                 _ => {}
             }
         }
         if nc.items.iter().any(|item| matches!(item, NcItem::Code('G', _))) {
-            (self.plane, self.at_zero) = (None, false);
+            (self.plane, self.at_zero, self.goes) = (None, false, false);
         }
+        self.places(nc);
         let turns = nc.word(Role::C).is_some() || nc.word(Role::StepC).is_some();
         let elsewhere = nc.ops().any(|op| {
             op.takes_axes()
@@ -107,6 +129,37 @@ impl Known {
             self.at_zero = zero && self.absolute && nc.word(Role::StepC).is_none();
         }
     }
+}
+
+impl Known {
+    /// Takes the places that a block's words name.
+    fn places(&mut self, nc: &Nc) {
+        let stands = |op| may_stand(op) || matches!(op, Op::PolarPlane | Op::PolarPlaneOff);
+        if !nc.ops().all(stands) || nc.names_axis() && !self.goes {
+            self.at = [None; 2];
+            return;
+        }
+        for (at, [place, step]) in self.at.iter_mut().zip([[Role::X, Role::StepX], [Role::C, Role::StepC]]) {
+            if let Some(value) = nc.word(place) {
+                *at = value.constant().filter(|_| self.absolute);
+            }
+            if let Some(value) = nc.word(step) {
+                *at = moved(*at, value);
+            }
+        }
+        if nc.word(Role::LineAngle).is_some() {
+            self.at = [None; 2];
+        }
+        if self.mode == Mode::Off {
+            // C counts degrees.
+            self.at[1] = None;
+        }
+    }
+}
+
+/// The place that lies so far from another one.
+pub fn moved(from: Option<f64>, by: &Expr) -> Option<f64> {
+    from.zip(by.constant()).map(|(from, by)| ((from + by) * 1e6).round() / 1e6)
 }
 
 /// Follows it.
@@ -128,6 +181,7 @@ impl Follow for Faces {
 
     fn lose(&self, known: &mut Known) {
         (known.at_zero, known.absolute, known.plane) = (false, false, None);
+        (known.at, known.goes) = ([None; 2], false);
     }
 }
 

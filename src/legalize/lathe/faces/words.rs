@@ -1,5 +1,6 @@
 //! The words of a block in milling on a face, in those of the other control.
 
+use super::known::moved;
 use super::{AXIS, STEPS, VACANT};
 use crate::canon::{Group, Op, Role};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
@@ -19,10 +20,13 @@ pub fn may_stand(op: Op) -> bool {
         || matches!(op, Op::Stop | Op::OptionalStop | Op::Act | Op::Builder)
 }
 
-/// Rewrites the words, of which X may be `vacant`; what stands in the way, if anything does.
-pub fn rewrite(nc: &mut Nc, by_c: bool, vacant: bool) -> Option<&'static str> {
+/// Rewrites the words, of which X may be `vacant`, from where the tool stands, as far as that is known; what stands in the way, if anything does.
+pub fn rewrite(nc: &mut Nc, by_c: bool, vacant: bool, at: [Option<f64>; 2]) -> Option<&'static str> {
     if nc.has(Op::Dwell) {
         return None;
+    }
+    if by_c && !to_places(nc, at) {
+        return Some(STEPS);
     }
     for item in &mut nc.items {
         let NcItem::Word(role, value) = item else { continue };
@@ -40,6 +44,23 @@ pub fn rewrite(nc: &mut Nc, by_c: bool, vacant: bool) -> Option<&'static str> {
         }
     }
     None
+}
+
+/// Makes places of increments; false where it is not known from where they count.
+fn to_places(nc: &mut Nc, at: [Option<f64>; 2]) -> bool {
+    let twins = [(Role::StepX, Role::X, at[0]), (Role::StepC, Role::C, at[1])];
+    for (step, place, at) in twins {
+        let both = nc.word(place).is_some();
+        for item in &mut nc.items {
+            let NcItem::Word(role, value) = item else { continue };
+            if *role != step {
+                continue;
+            }
+            let Some(to) = moved(at, value).filter(|_| !both) else { return false };
+            *item = NcItem::Word(place, Expr::Number(to));
+        }
+    }
+    true
 }
 
 /// False for words of corners, angles, tools and of the axis of a plane that is not there.
