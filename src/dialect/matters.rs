@@ -29,6 +29,10 @@ pub const ALL: &[(&str, &str)] = &[
         "machine:lathe.face.centre",
         "a way through the centre of the spindle in polar interpolation turns C half round",
     ),
+    (
+        "machine:lathe.face.place",
+        "a place that is read while a face or a side is milled with C is X of its plane, or C as it stood",
+    ),
     ("machine:lathe.face.plane", "a code of a plane in polar interpolation does nothing"),
     ("machine:lathe.face.rapid", "a rapid move in polar interpolation goes straight in its plane"),
     ("machine:lathe.groove.moves", "the cycles of grooves and pecks move as docs/lathe.md says"),

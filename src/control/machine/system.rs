@@ -44,8 +44,7 @@ impl Machine {
                 | Sys::AxisPosition
         );
         if place && self.lathe.surface.is_some() {
-            // In the plane or at the axes: no source says it (V9).
-            return None;
+            trace.doubt("machine:lathe.face.place");
         }
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             if self.rules.lathe && subscripts.last() == Some(&1) {

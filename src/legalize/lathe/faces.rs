@@ -174,7 +174,7 @@ impl Face {
         };
         let unsure = changes(nc) && !begins && before.mode == Mode::On && before.plane.is_none();
         self.found.extend(what.or(unsure.then_some(PLANE)).map(|what| (span, what)));
-        let plane = plane.filter(|_| !(says && !begins));
+        let plane = plane.filter(|_| !says || begins);
         let after =
             plane.map(|op| Stmt { kind: StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] }), site: tell });
         (stmt, after)

@@ -90,7 +90,7 @@ fn begin(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace) ->
     } else {
         match machine.rules.face_by_c.ask(trace) {
             None => return Err(Stop::unnamed("no source says how a face is programmed on this control")),
-            Some(false) if c.abs() > EXACT => {
+            Some(false) if wrapped(c).abs() > EXACT => {
                 return Err(Stop::unnamed("milling on a face begins while C does not stand at 0"));
             }
             Some(_) => {}

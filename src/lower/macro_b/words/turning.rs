@@ -52,10 +52,15 @@ impl Lowering<'_> {
         if !matches!(role, Role::X | Role::StepX | Role::AllowanceX) || !self.counts_radii() {
             return Some(value);
         }
+        // With a sign before it, too, the word is not there.
+        let vacant = match &value {
+            Expr::Negate(inner) => inner.may_be_vacant(),
+            value => value.may_be_vacant(),
+        };
         match value {
             Expr::Number(number) => Some(Expr::Number(2.0 * number)),
             Expr::Increments(count) => Some(Expr::Increments(2.0 * count)),
-            value if value.may_be_vacant() => {
+            _ if vacant => {
                 let what = "X of a machine that counts radii is computed from a variable that may be vacant: set the variable by a calculation";
                 self.findings.not_understood(span, what);
                 None
