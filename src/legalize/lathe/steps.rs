@@ -9,7 +9,7 @@ use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
@@ -127,7 +127,8 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 mode = None;
                 place.forget();
             }
-            for stmt in &mut block.stmts {
+            let mut ahead = Vec::new();
+            for (at, stmt) in block.stmts.iter_mut().enumerate() {
                 // A macro that runs after each move may leave the tool elsewhere.
                 if calls_after_moves {
                     place.forget();
@@ -136,6 +137,15 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let before = place;
                 place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                // The radius of a cylinder is no increment, and its block takes no other code.
+                if nc.has(Op::Cylinder) && mode != Some(Op::Absolute) {
+                    ahead.push((
+                        at,
+                        SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() },
+                    ));
+                    mode = Some(Op::Absolute).filter(|_| stmt.site.skip.is_none());
+                    continue;
+                }
                 // The depth of a hole counts from its plane, not from where the tool stands.
                 if !place.drills() && (both_kinds(nc) || before.in_contour()) {
                     to_places(nc, before);
@@ -161,6 +171,10 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 if stmt.site.skip.is_some() || calls_after_moves {
                     mode = None;
                 }
+            }
+            for (at, site) in ahead.into_iter().rev() {
+                let absolute = StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Absolute)] });
+                block.stmts.insert(at, Stmt { kind: absolute, site });
             }
         }
     }
