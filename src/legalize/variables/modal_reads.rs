@@ -10,10 +10,11 @@ use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::Setting;
-use crate::ir::{Cond, Expr, Module, Relation};
+use crate::ir::{Cond, Expr, Module, Program, Relation, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, Position, PreStatement, Rewriter, rewrite_program};
 use crate::text::Span;
+use std::collections::BTreeSet;
 
 /// True if the library reads state.
 pub fn concerns(features: &Features, _: &Context<'_>) -> bool {
@@ -169,6 +170,71 @@ fn tests(group: Group, source: &Control, target: &Control) -> Option<(f64, Vec<(
     }
     let left = left.or_else(|| tests.pop().map(|(number, _)| number))?;
     Some((left, tests))
+}
+
+/// The blocks in which modal codes are only compared, with numbers that are the target's now.
+pub(super) fn compared(program: &mut Program, controls: (&Control, &Control)) -> BTreeSet<Span> {
+    let mut found = BTreeSet::new();
+    for term in program.blocks.iter_mut().map(|block| &mut block.term) {
+        if let TermKind::Branch { cond, .. } = &mut term.kind
+            && compare_there(cond, controls)
+        {
+            found.insert(term.site.span);
+        }
+    }
+    // What stands after THEN is in the same block.
+    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+        let mut reads = false;
+        stmt.kind.exprs(&mut |e| reads |= reads_modal(e));
+        if reads {
+            found.remove(&stmt.site.span);
+        }
+    }
+    found
+}
+
+/// Compares the codes in force with the target's numbers where the source's are other ones: `#4001 EQ 90` of one system of G codes
+/// is `#4001 EQ 77` of another. True if that settles every modal code that the condition reads.
+fn compare_there(cond: &mut Cond, (source, target): (&Control, &Control)) -> bool {
+    match cond {
+        Cond::Compare(Relation::Equal | Relation::NotEqual, a, b) => {
+            let (read, number) = if is_modal(a) { (&*a, b) } else { (&*b, a) };
+            let (Expr::System(Sys::Modal, subscripts), Some(value)) = (read, number.constant()) else {
+                return !reads_modal(read) && !reads_modal(number);
+            };
+            let group = subscripts.first().and_then(Expr::constant);
+            let Some(there) = group.and_then(|group| number_there(group, value, source, target)) else {
+                return false;
+            };
+            *number = Expr::Number(there);
+            true
+        }
+        Cond::Compare(_, a, b) => !reads_modal(a) && !reads_modal(b),
+        // Each is looked at.
+        Cond::And(all) | Cond::Or(all) => {
+            all.iter_mut().map(|cond| compare_there(cond, (source, target))).fold(true, |all, one| all & one)
+        }
+        Cond::Not(inner) => compare_there(inner, (source, target)),
+        Cond::Switch(_) => true,
+    }
+}
+
+fn is_modal(e: &Expr) -> bool {
+    matches!(e, Expr::System(Sys::Modal, _))
+}
+
+fn reads_modal(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |part| found |= is_modal(part));
+    found
+}
+
+/// The number on the target of what the source has as this number of a group.
+fn number_there(group: f64, number: f64, source: &Control, target: &Control) -> Option<f64> {
+    let group = *Group::ALL.iter().find(|own| own.number().is_some_and(|own| f64::from(own) == group))?;
+    let (op, offset, _) = codes(group, source).into_iter().find(|(.., own)| *own == number)?;
+    let mut there = codes(group, target).into_iter();
+    there.find(|(other, selects, _)| *other == op && *selects == offset).map(|(.., number)| number)
 }
 
 /// True for a condition that tests a code, which such a target takes as it stands.

@@ -10,8 +10,8 @@ use crate::dialect::{Control, Question, Row, Side};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::offsets::tool_word;
-use crate::legalize::variables::cycle_seconds;
 use crate::legalize::variables::signals::is_signal;
+use crate::legalize::variables::{cycle_seconds, modal_reads};
 use crate::legalize::{Context, Position, Rewriter, rewrite_program};
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -49,15 +49,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
             continue;
         }
         changed.push(index);
-        let mut found: Vec<(Span, Finding)> = Vec::new();
+        let mut found = Vec::<(Span, Finding)>::new();
+        let compared = modal_reads::compared(program, (source, target));
         rewrite_program(
             program,
             |e| matches!(e, Expr::System(..)),
             &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
                 Expr::System(state, subscripts) => {
-                    if state == Sys::CycleSeconds {
-                        timed.insert(index);
-                    }
+                    timed.extend((state == Sys::CycleSeconds).then_some(index));
                     read(state, subscripts, (source, target), rewriter.span, &mut found)
                 }
                 other => other,
@@ -66,9 +65,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             write(stmt, (source, target), &mut found);
         }
-        for (span, finding) in found {
-            finding.report(index, span, context);
-        }
+        found
+            .retain(|(span, finding)| !matches!(finding, Finding::Renumbered(_)) || !compared.contains(span));
+        found.into_iter().for_each(|(span, finding)| finding.report(index, span, context));
     }
     if !timed.is_empty() && target.system_run(Sys::CycleSeconds).is_none() {
         changed.extend(cycle_seconds::start(module, timed, context));
