@@ -25,6 +25,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.code.moves.nothing", "a code of a lathe that only this control has moves nothing"),
     ("machine:lathe.contour.moves", "the cycles of contours move as docs/lathe.md says"),
     ("machine:lathe.contour.steps", "increments of a contour count from where the finishing began"),
+    (
+        "machine:lathe.corner.read",
+        "what a program reads while a block waits for the next one is as it was before that block",
+    ),
     ("machine:lathe.groove.moves", "the cycles of grooves and pecks move as docs/lathe.md says"),
     ("machine:lathe.hole.moves", "the drilling cycles of a lathe move as docs/lathe.md says"),
     ("machine:lathe.home.without.axes", "a return without axes takes all axes home at once"),

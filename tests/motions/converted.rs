@@ -83,7 +83,6 @@ fn of_target(
     let kept: String = kept.flat_map(|line| [line, "\n"]).collect();
     Expectation {
         c_axis: expectation.c_axis,
-        corners: expectation.corners,
         control: converts.to.clone(),
         run: made.texts.iter().enumerate().filter_map(write).collect(),
         ends: expectation.ends.clone(),
