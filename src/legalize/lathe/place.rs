@@ -54,6 +54,11 @@ impl Place {
         self.at.z
     }
 
+    /// Takes what is known of where the cycles begin that read the contour that begins here.
+    pub fn knows(&mut self, x: Option<f64>, z: Option<f64>) {
+        self.at = At { x: self.at.x.or(x), z: self.at.z.or(z) };
+    }
+
     /// True inside a contour.
     pub fn in_contour(&self) -> bool {
         self.inside.is_some()
