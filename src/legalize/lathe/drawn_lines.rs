@@ -44,8 +44,19 @@ pub struct Drawn {
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
     pub to: Place,
-    /// Its radius, and whether it goes counter-clockwise, from Z to X; none for a chamfer.
-    pub arc: Option<(f64, bool)>,
+    /// None for a chamfer.
+    pub arc: Option<Arc>,
+}
+
+/// The arc of a round.
+#[derive(Clone, Copy, Debug)]
+pub struct Arc {
+    radius: f64,
+    /// True where it goes from Z to X.
+    pub ccw: bool,
+    centre: Place,
+    /// True where it turns so far that the rounding of its ends would move a centre that its radius gives.
+    sharp: bool,
 }
 
 /// Why lines are not written out.
@@ -65,6 +76,9 @@ impl From<&str> for Fault {
 
 /// Lines that lie within a degree of each other do not meet, and have no corner.
 const LEAST_TURN: f64 = 1.0;
+
+/// An arc that turns farther is written by its centre, degrees.
+const SHARP: f64 = 120.0;
 
 /// What is no length, millimetres or inches.
 const NONE: f64 = 1e-9;
@@ -89,6 +103,24 @@ pub fn fault(nc: &Nc, before: Option<&Nc>) -> Option<&'static str> {
     let (x, z, angle) =
         (has(Role::X) || has(Role::StepX), has(Role::Z) || has(Role::StepZ), has(Role::LineAngle));
     let steps = has(Role::StepX) || has(Role::StepZ);
+    if let Some(op) = nc.ops().find(|op| op.group() == Group::Motion && *op != Op::Linear) {
+        return Some(match (before, op) {
+            (Some(_), Op::ArcCw | Op::ArcCcw) => {
+                "an arc beside a corner: no source says where the corner begins and ends"
+            }
+            (Some(_), _) => "the block after a corner is no straight feed move: the source stops at an alarm",
+            (None, _) => "a corner or an angle in a block that is no straight feed move",
+        });
+    }
+    if before.is_some() && !nc.names_axis() && !angle {
+        return Some("the block after a corner does not move: the source stops at an alarm");
+    }
+    let comp = nc.ops().any(|op| op.group() == Group::RadiusComp);
+    if comp && nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if is_corner(*role))) {
+        return Some(
+            "a corner in a block that begins or ends the compensation of the nose: the source stops at an alarm",
+        );
+    }
     match before.is_some_and(is_open) {
         true if !(x && z && angle) => Some(
             "the block after a line by its angle alone must have X, Z and an angle: otherwise the source stops at an alarm",
@@ -238,7 +270,7 @@ fn meeting((from, angle): (Place, f64), (through, other): (Place, f64)) -> Resul
 }
 
 /// Where a corner begins and ends, and its arc.
-type Cut = ((Place, Place), Option<(f64, bool)>);
+type Cut = ((Place, Place), Option<Arc>);
 
 fn cut(this: &Drawn, next: &Drawn, chamfer: bool, size: f64) -> Result<Cut, Fault> {
     let way = |line: &Drawn| [line.to[0] - line.from[0], line.to[1] - line.from[1]];
@@ -266,7 +298,11 @@ fn cut(this: &Drawn, next: &Drawn, chamfer: bool, size: f64) -> Result<Cut, Faul
     let at = this.to;
     let begin = [at[0] - one[0] / long * short, at[1] - one[1] / long * short];
     let end = [at[0] + two[0] / longer * short, at[1] + two[1] / longer * short];
-    Ok(((begin, end), (!chamfer).then_some((size, sense > 0.0))))
+    // The centre lies to the side that the lines turn to.
+    let side = if sense > 0.0 { size } else { -size };
+    let centre = [begin[0] + side * one[1] / long, begin[1] - side * one[0] / long];
+    let arc = Arc { radius: size, ccw: sense > 0.0, centre, sharp: turn > SHARP };
+    Ok(((begin, end), (!chamfer).then_some(arc)))
 }
 
 /// A value that a word has by a number of its own.
@@ -309,6 +345,16 @@ impl Words {
             Some(word(role, value + 0.0))
         };
         (0..2).filter_map(word).collect()
+    }
+
+    /// The words of an arc that begins at a place: its radius, or where its centre lies from there.
+    pub fn arc(&self, from: Place, arc: &Arc) -> Vec<NcItem> {
+        if !arc.sharp {
+            return vec![word(Role::ArcRadius, arc.radius)];
+        }
+        let x = self.rounded(arc.centre[0] - self.rounded(2.0 * from[0]) / 2.0);
+        let z = self.rounded(arc.centre[1] - self.rounded(from[1]));
+        vec![word(Role::ArcI, x + 0.0), word(Role::ArcK, z + 0.0)]
     }
 
     /// The block of a line; `ends` where it ends where its words say.

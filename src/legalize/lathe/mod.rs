@@ -1,5 +1,6 @@
 //! Lathes: cycles in one block or two, contours, holes, increments, machine coordinates, units, and programs of the other kind of machine.
 
+mod contour_starts;
 pub mod contours;
 pub mod corners;
 pub mod counts;

@@ -59,6 +59,16 @@ impl Place {
         self.at = At { x: self.at.x.or(x), z: self.at.z.or(z) };
     }
 
+    /// Keeps what agrees with where the cycles begin that read the contour that begins here, and that are come to elsewhere.
+    pub fn agrees(&mut self, x: Option<f64>, z: Option<f64>) {
+        self.at = At { x: self.at.x.filter(|at| Some(*at) == x), z: self.at.z.filter(|at| Some(*at) == z) };
+    }
+
+    /// The tool stands there, whatever the words of the last block are rounded to.
+    pub fn lies_at(&mut self, x: f64, z: f64) {
+        self.at = At { x: Some(x), z: Some(z) };
+    }
+
     /// True inside a contour.
     pub fn in_contour(&self) -> bool {
         self.inside.is_some()

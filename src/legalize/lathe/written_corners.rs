@@ -8,6 +8,7 @@
 //! It is done where the target has no words for them, where nobody confirms what its word for an angle means, and where its profile says so;
 //! elsewhere the words stay.
 
+use super::contour_starts::{At, Contours};
 use super::drawn_lines::{self, Fault, Line, Words, fault, is_open, read, waits};
 use super::place::Place;
 use super::settings::takes;
@@ -15,7 +16,7 @@ use super::straight::{entered_straight, goes_on_to};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Units};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::ir::{BlockId, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
@@ -57,9 +58,6 @@ fn fates(target: &Control) -> [Fate; 2] {
     [corners, angles]
 }
 
-/// The place of a statement: its block, and where it stands in it.
-type At = (usize, usize);
-
 /// Writes them out; true where anything changed.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let fates = fates(context.target);
@@ -78,6 +76,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             increments: [numbers.increment_mm, numbers.increment_inch],
             inch: context.target.units() == Some(Units::Inch),
             made: BTreeMap::new(),
+            ends: BTreeMap::new(),
             said: Vec::new(),
         };
         walk.all(|at| facts.at(index, BlockId(at as u32)));
@@ -127,53 +126,8 @@ enum Said {
     Refused(Span, String),
 }
 
-/// The contours of a program: where they stand, and where their cycles begin.
-struct Contours {
-    spans: Vec<(At, At)>,
-    /// By the number of the first block.
-    starts: BTreeMap<u32, [Option<f64>; 2]>,
-}
-
-impl Contours {
-    fn of(program: &Program) -> Self {
-        let straight = entered_straight(program);
-        let (mut place, mut starts) = (Place::default(), BTreeMap::<u32, [Option<f64>; 2]>::new());
-        let (mut named, mut numbered) = (Vec::new(), BTreeMap::<u32, At>::new());
-        for (at, (block, straight)) in program.blocks.iter().zip(straight).enumerate() {
-            if !straight {
-                place = Place::default();
-            }
-            for (count, stmt) in block.stmts.iter().enumerate() {
-                place.enter(stmt);
-                if let Some(number) = stmt.site.sequence.get() {
-                    numbered.entry(number).or_insert((at, count));
-                }
-                let cycle = stmt.kind.nc().filter(|nc| nc.ops().any(Op::reads_contour));
-                let number =
-                    |nc: &Nc, role| nc.word(role).and_then(Expr::constant).map(|number| number as u32);
-                let ends =
-                    cycle.and_then(|nc| number(nc, Role::ContourFirst).zip(number(nc, Role::ContourLast)));
-                if let Some(ends) = ends {
-                    let here = [place.x(), place.z()];
-                    let known = starts.entry(ends.0).or_insert(here);
-                    for (known, here) in known.iter_mut().zip(here) {
-                        *known = known.filter(|known| Some(*known) == here);
-                    }
-                    named.push(ends);
-                }
-                place.step(stmt);
-            }
-        }
-        let span = |(first, last): (u32, u32)| Some((*numbered.get(&first)?, *numbered.get(&last)?));
-        Self { spans: named.into_iter().filter_map(span).collect(), starts }
-    }
-
-    /// True where both stand in the same contours.
-    fn together(&self, one: At, other: At) -> bool {
-        let inside = |(first, last): &(At, At), at: At| *first <= at && at <= *last;
-        self.spans.iter().all(|span| inside(span, one) == inside(span, other))
-    }
-}
+/// What stands in the place of each of some lines, and where the last one ends, if that is known.
+type Written = (Vec<Vec<Stmt>>, Option<[f64; 2]>);
 
 /// A way through a program.
 struct Walk<'p> {
@@ -189,6 +143,8 @@ struct Walk<'p> {
     inch: bool,
     /// What stands in a statement's place.
     made: BTreeMap<At, Vec<Stmt>>,
+    /// Where lines end that are written out: X, a diameter, and Z.
+    ends: BTreeMap<At, [f64; 2]>,
     said: Vec<Said>,
 }
 
@@ -201,10 +157,14 @@ impl<'p> Walk<'p> {
                 place = Place::default();
             }
             for (count, stmt) in block.stmts.iter().enumerate() {
+                let inside = place.in_contour();
                 place.enter(stmt);
                 let start = stmt.site.sequence.get().and_then(|number| self.contours.starts.get(&number));
-                if let Some([x, z]) = start.filter(|_| place.in_contour()) {
-                    place.knows(*x, *z);
+                match start {
+                    Some([x, z]) if !inside && place.in_contour() => place.knows(*x, *z),
+                    // The run comes to it by itself, too.
+                    Some([x, z]) => place.agrees(*x, *z),
+                    None => {}
                 }
                 let here = (at, count);
                 let drawn = |nc: &Nc| {
@@ -214,9 +174,14 @@ impl<'p> Walk<'p> {
                     done = self.chain(here, &state, &place);
                 }
                 state.step(stmt);
+                let inside = place.in_contour();
                 match self.made.get(&here) {
                     Some(stmts) => stmts.iter().for_each(|stmt| place.step(stmt)),
                     None => place.step(stmt),
+                }
+                // The next line begins where this one ends, and not where its words are rounded to.
+                if let Some([x, z]) = self.ends.get(&here).filter(|_| place.in_contour() == inside) {
+                    place.lies_at(*x, *z);
                 }
             }
         }
@@ -302,8 +267,9 @@ impl<'p> Walk<'p> {
             self.said.push(Said::Comma(span));
         }
         match made {
-            Ok(made) if !kept => {
+            Ok((made, end)) if !kept => {
                 self.made.extend(all.into_iter().zip(made));
+                self.ends.extend(end.map(|end| (last, end)));
                 return after;
             }
             Err(Fault::Source(what) | Fault::Unknown(what)) if !kept => {
@@ -326,22 +292,33 @@ impl<'p> Walk<'p> {
     }
 
     /// What stands in the place of each of the lines.
-    fn write(&self, blocks: &[&Stmt], state: &Modal, place: &Place) -> Result<Vec<Vec<Stmt>>, Fault> {
+    fn write(&self, blocks: &[&Stmt], state: &Modal, place: &Place) -> Result<Written, Fault> {
         let ncs: Vec<&Nc> = blocks.iter().filter_map(|stmt| stmt.kind.nc()).collect();
         if blocks.iter().any(|stmt| stmt.site.skip.is_some()) {
             return Err(
                 "a block that may be skipped stands beside this corner, or is the one after it".into()
             );
         }
+        let begins = |stmt: &&&Stmt| {
+            stmt.site.sequence.get().is_some_and(|number| self.contours.starts.contains_key(&number))
+        };
+        let angled = |stmt: &&Stmt| stmt.kind.nc().is_some_and(|nc| nc.word(Role::LineAngle).is_some());
+        if blocks.iter().filter(begins).any(angled) {
+            return Err(Fault::Unknown(FIRST.into()));
+        }
         if state.may_call() {
             return Err(Fault::Unknown("a modal call is in force, which would run after each move".into()));
         }
-        let straight =
-            ncs.first().is_some_and(|nc| nc.has(Op::Linear)) || state.op(Group::Motion) == Some(Op::Linear);
-        if !straight || !matches!(state.op(Group::Plane), None | Some(Op::PlaneZx)) {
-            return Err(
-                "whether this block is a straight feed move in the plane of Z and X is not known here".into(),
-            );
+        let own = ncs.first().is_some_and(|nc| nc.has(Op::Linear));
+        match state.op(Group::Motion).filter(|_| !own) {
+            None if !own => {
+                return Err(Fault::Unknown("which code of motion is in force is not known here".into()));
+            }
+            Some(op) if op != Op::Linear => return Err(NOT_STRAIGHT.into()),
+            _ => {}
+        }
+        if !matches!(state.op(Group::Plane), None | Some(Op::PlaneZx)) {
+            return Err(Fault::Unknown("whether the plane of Z and X is in force is not known here".into()));
         }
         let steps = match state.op(Group::Distance) {
             None if self.has_steps => {
@@ -369,21 +346,25 @@ impl<'p> Walk<'p> {
             after_arc = false;
             if let Some(corner) = line.corner {
                 let mut items = Vec::new();
-                if let Some((_, ccw)) = corner.arc {
-                    items.push(NcItem::Op(if ccw { Op::ArcCcw } else { Op::ArcCw }));
+                if let Some(arc) = corner.arc {
+                    items.push(NcItem::Op(if arc.ccw { Op::ArcCcw } else { Op::ArcCw }));
                     after_arc = true;
                 }
                 items.extend(words.ways(line.to, corner.to, [false; 2]));
-                items.extend(corner.arc.map(|(radius, _)| drawn_lines::word(Role::ArcRadius, radius)));
+                items.extend(corner.arc.iter().flat_map(|arc| words.arc(line.to, arc)));
                 let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
                 all.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
             }
             out.push(all);
         }
-        Ok(out)
+        let known = !steps && relative == [false; 2];
+        let end = drawn.last().filter(|_| known).map(|line| [2.0 * line.to[0], line.to[1]]);
+        Ok((out, end))
     }
 }
 
+const NOT_STRAIGHT: &str = "a corner or an angle in a block that is no straight feed move";
+const FIRST: &str = "the first block of a contour has an angle: by X and Z in its place the cycle would take it for a contour of another kind";
 const NO_MOVE: &str = "the block after this corner, or after this line by its angle alone, must be a straight feed move that the run \
                        always comes to: otherwise the source stops at an alarm";
 const CONTOUR: &str =

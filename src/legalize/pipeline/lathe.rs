@@ -34,7 +34,7 @@ pub(super) const LATHE: &[Pass] = &[
         .needs(&["start", "beside-moves"]),
     Pass::edits(
         "written-corners",
-        "corners and lines by their angle are written out as moves, where the target has no words for them",
+        "corners and lines by their angle become moves where the target has no words for them",
         written_corners::run,
     )
     .when(written_corners::concerns)

@@ -24,7 +24,7 @@ const PLAIN: [(Role, bool); 2] = [(Role::CornerRadius, false), (Role::CornerCham
 
 /// The sine of a degree: lines that lie no farther apart do not meet, and a line no farther from an axis does not come to a place
 /// along the other one.
-pub const DEGREE: f64 = 0.017_452_406_437_283_512;
+pub const DEGREE: f64 = 0.017_452_406_437_283_51;
 
 /// The corner that a block says, and where the next one must go.
 pub fn of(machine: &Machine, command: &Command) -> Result<(Cut, Way), Stop> {

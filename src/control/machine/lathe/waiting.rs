@@ -107,6 +107,12 @@ impl Machine {
         let mode = before.map_or(self.incremental, |one| one.incremental);
         let incremental = command.of(Group::Distance).map_or(mode, |op| op == Op::Incremental);
         let from = before.map_or_else(|| self.tool_at(), |one| one.drawn.piece.to);
+        if corner.is_some() && command.ops.iter().any(|op| op.group() == Group::RadiusComp) {
+            return Err(alarm(
+                "PS0039",
+                "a corner in a block that begins or ends the compensation of the nose",
+            ));
+        }
         if command.words.iter().all(|(role, _)| !role.is_axis() && *role != Role::LineAngle) {
             return Err(match before {
                 Some(_) => alarm("PS0052", "the block after a corner does not move"),

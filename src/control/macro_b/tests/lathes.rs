@@ -261,6 +261,7 @@ fn corners_without_a_comma() {
 fn corners_that_are_alarms() {
     let number = |blocks: &str| alarm(&run(FANUC, &format!("O1\nG0 X20. Z2.\n{blocks}\nM30\n"))).0;
     for (blocks, wanted) in [
+        ("G1 G42 Z-20. ,R3. F.2\nX40.", "PS0039"),
         ("G1 Z-20. R-3. F.2\nX40.", "PS0051"),
         ("G1 Z-20. R3. F.2\nX40. Z-30.", "PS0051"),
         ("G1 Z-20. R3. F.2\nG2 X40. Z-30. R10.", "PS0052"),
