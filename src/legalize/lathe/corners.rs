@@ -150,7 +150,11 @@ fn plain(nc: &Nc, next: Option<&Nc>, (place, letters): (Place, bool)) -> Result<
     };
     let before = if along_x { place.z() } else { place.x() };
     let value = next.word(role).and_then(Expr::constant);
-    let way = if role.is_step() { value } else { value.zip(before).map(|(to, from)| to - from) };
+    let way = if role.is_step() || place.counts_steps() {
+        value
+    } else {
+        value.zip(before).map(|(to, from)| to - from)
+    };
     match way {
         Some(way) if way * size > 0.0 => Ok(without_sign()),
         Some(_) => Err(

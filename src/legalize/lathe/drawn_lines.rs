@@ -3,7 +3,7 @@
 //! X is a diameter in words and a radius here; lengths and angles are real ones. The lines follow one another: all but the last have a
 //! corner after them, or end where the next one meets them.
 
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::ir::{Expr, Nc, NcItem};
 
 /// X as a radius, and Z.
@@ -135,8 +135,9 @@ pub fn fault(nc: &Nc, before: Option<&Nc>) -> Option<&'static str> {
     }
 }
 
-/// Reads the words of a block; `steps` where X and Z are increments by a mode.
-pub fn read(nc: &Nc, steps: bool) -> Result<Line, Fault> {
+/// Reads the words of a block; `steps` where X and Z are increments by a mode. The first line of some may have the code of that mode, and the
+/// last one M codes.
+pub fn read(nc: &Nc, steps: bool, (first, last): (bool, bool)) -> Result<Line, Fault> {
     let mut line = Line { to: [Coordinate::Same; 2], angle: None, corner: None };
     for item in &nc.items {
         let beside = |what: &dyn std::fmt::Display| {
@@ -144,6 +145,8 @@ pub fn read(nc: &Nc, steps: bool) -> Result<Line, Fault> {
         };
         let (role, value) = match item {
             NcItem::Op(op) if *op == Op::Linear || is_mode(*op) => continue,
+            NcItem::Op(op) if first && op.group() == Group::Distance => continue,
+            NcItem::Op(op) if last && is_beside(*op) => continue,
             NcItem::Word(Role::Feed, _) => continue,
             NcItem::Word(role, value) => (*role, value),
             NcItem::Op(op) => return Err(beside(op)),
@@ -173,6 +176,11 @@ pub fn read(nc: &Nc, steps: bool) -> Result<Line, Fault> {
         }
         _ => Ok(line),
     }
+}
+
+/// What acts beside a move, or when it is done, and moves nothing.
+fn is_beside(op: Op) -> bool {
+    op.auxiliary().is_some_and(|kind| kind != Auxiliary::Change)
 }
 
 /// Modes that a line may set for itself.

@@ -320,7 +320,8 @@ impl<'p> Walk<'p> {
         if !matches!(state.op(Group::Plane), None | Some(Op::PlaneZx)) {
             return Err(Fault::Unknown("whether the plane of Z and X is in force is not known here".into()));
         }
-        let steps = match state.op(Group::Distance) {
+        let own = ncs.first().and_then(|nc| nc.ops().filter(|op| op.group() == Group::Distance).last());
+        let steps = match own.or(state.op(Group::Distance)) {
             None if self.has_steps => {
                 return Err(Fault::Unknown(
                     "whether X and Z are increments here (G90, G91) is not known".into(),
@@ -328,7 +329,8 @@ impl<'p> Walk<'p> {
             }
             mode => mode == Some(Op::Incremental),
         };
-        let lines = ncs.iter().map(|nc| read(nc, steps)).collect::<Result<Vec<Line>, Fault>>()?;
+        let line = |(at, nc): (usize, &&Nc)| read(nc, steps, (at == 0, at + 1 == ncs.len()));
+        let lines = ncs.iter().enumerate().map(line).collect::<Result<Vec<Line>, Fault>>()?;
         let start = if steps { [None; 2] } else { [place.x().map(|x| x / 2.0), place.z()] };
         let relative = drawn_lines::relative(&lines, start)?;
         let drawn = drawn_lines::solve(&lines, start.map(Option::unwrap_or_default))?;
