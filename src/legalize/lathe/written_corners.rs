@@ -41,7 +41,7 @@ enum Fate {
 }
 
 /// Of corners, and of angles.
-fn fates(target: &Control) -> [Fate; 2] {
+fn fates(source: &Control, target: &Control) -> [Fate; 2] {
     if target.behaviour(Question::Corners).is_some_and(|row| row.value == "moves") {
         return [Fate::Lacking; 2];
     }
@@ -53,6 +53,8 @@ fn fates(target: &Control) -> [Fate; 2] {
     let angles = match (takes(target, Op::Linear, Role::LineAngle), known) {
         (false, _) => Fate::Lacking,
         (true, Some(_)) => Fate::Kept,
+        // Whatever it means, it means the same there.
+        (true, None) if source.name() == target.name() => Fate::Kept,
         (true, None) => Fate::Asked,
     };
     [corners, angles]
@@ -60,7 +62,7 @@ fn fates(target: &Control) -> [Fate; 2] {
 
 /// Writes them out; true where anything changed.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let fates = fates(context.target);
+    let fates = fates(context.source, context.target);
     let facts = context.modal_facts(module);
     let steps = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let has_steps = steps.into_iter().any(|stmt| stmt.kind.has_op(Op::Incremental));
