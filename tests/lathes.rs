@@ -71,7 +71,7 @@ fn program(source: &mut Source) -> String {
 const HOME: &str = "G0 X64. Z3.";
 
 fn part(source: &mut Source, number: u64, out: &mut String) {
-    let _ = match source.below(17) {
+    let _ = match source.below(18) {
         0 => {
             let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
             writeln!(out, "G90 X58. {end}{taper} F.2\nX56.\nX54.")
@@ -80,10 +80,14 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
         2 => writeln!(out, "G94 X0. Z2. F.2\nZ1."),
         3 => {
             let (depth, left) = (source.pick(&["U1.", "U2.5"]), source.pick(&["U.4 W.1", "U0 W0", "U.6"]));
-            let way = source.pick(&["X46.", "G2 X50. Z-20. R5.", "U6. W-3."]);
+            let way =
+                source.pick(&["X46.", "G2 X50. Z-20. R5.", "U6. W-3.", ",A135. ,C.5\nX50. Z-30. ,A180."]);
+            // Beside an arc no source says what a corner is.
+            let corner = if way.starts_with('G') { "" } else { source.pick(&["", " ,R1.5", " ,C1."]) };
+            let last = source.pick(&["", " ,R2."]);
             writeln!(
                 out,
-                "G71 {depth} R.5\nG71 P{number} Q{} {left} F.25\nN{number} G0 X40.\nG1 Z-15. F.12\n{way}\nG1 Z-35.\nN{} X64.\nG70 P{number} Q{}",
+                "G71 {depth} R.5\nG71 P{number} Q{} {left} F.25\nN{number} G0 X40.\nG1 Z-15.{corner} F.12\n{way}\nG1 Z-35.{last}\nN{} X64.\nG70 P{number} Q{}",
                 number + 5,
                 number + 5,
                 number + 5
@@ -152,6 +156,15 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
                 "G2 X-40. C9.5 R60. Z2."
             ]),
             source.pick(&["G1 X-20. C-12.", "G3 X10. C-17.5 R50.", "G1 X[-8.*#2] C-14."])
+        ),
+        16 => writeln!(
+            out,
+            "G1 X{}{} F.2\n,A{}.{}\nX62. Z-16. ,A{}.\nG0 X66.",
+            source.pick(&["52.", "56."]),
+            source.pick(&["", " ,R.6", " ,C.5"]),
+            source.pick(&["180", "175"]),
+            source.pick(&["", " ,R2.", " ,C.8"]),
+            source.pick(&["120", "150"])
         ),
         _ => writeln!(
             out,

@@ -29,9 +29,6 @@ struct Expectation {
     /// True where places have the C axis too, in degrees, after z.
     #[serde(default)]
     c_axis: bool,
-    /// True where the list says where the corners are that a move ends in.
-    #[serde(default)]
-    corners: bool,
     profile: String,
     scenario: String,
     moves: String,
@@ -97,7 +94,6 @@ fn traced(event: &Value, expectation: &Expectation) -> Option<Move> {
         "dwell" => vec![number("seconds")],
         "spindle" if turns => vec![number("speed")],
         "stop" if turns => Vec::new(),
-        "corner" if expectation.corners => vec![number("size")],
         _ => return None,
     };
     let still = place("from").iter().zip(place("to")).all(|(a, b)| (a - b).abs() <= NEAR);
@@ -116,10 +112,7 @@ fn traced(event: &Value, expectation: &Expectation) -> Option<Move> {
         "hole" => numbers.push(number("bottom")),
         _ => {}
     }
-    let shape = event["chamfer"].as_bool().filter(|_| kind == "corner");
-    let shape = shape.map(|chamfer| if chamfer { "chamfer" } else { "round" });
-    let mode =
-        event["mode"].as_str().or(event["direction"].as_str()).or(shape).unwrap_or_default().to_owned();
+    let mode = event["mode"].as_str().or(event["direction"].as_str()).unwrap_or_default().to_owned();
     Some(Move { kind: kind.to_owned(), numbers, mode })
 }
 
@@ -168,15 +161,6 @@ fn difference_by(found: &[Move], wanted: &[Move], alike: impl Fn(&Move, &Move) -
     })?;
     Some(format!("move {at} of {longest}\n  expected {:?}\n  found    {:?}", wanted.get(at), found.get(at)))
 }
-
-/// The lists of lathes that hold what the emulated control refuses: a line by its angle alone, and a corner where the lines
-/// do not go along the axes. Those moves that it makes before are theirs.
-const REFUSED: &[&str] = &[
-    "dimensions-angles.toml",
-    "dimensions-angles-letters.toml",
-    "dimensions-letters.toml",
-    "dimensions-profile.toml",
-];
 
 /// All expectations of mills and their files.
 fn expectations() -> Vec<(PathBuf, Expectation)> {
@@ -227,7 +211,7 @@ fn lathes_move_as_their_parts_say() {
 /// Lathes with driven tools and a C axis, corners and angles of lines.
 #[test]
 fn live_tools_move_as_their_parts_say() {
-    lathes_move_as("tests/motions/expected-live", 29);
+    lathes_move_as("tests/motions/expected-live", 31);
 }
 
 /// Holds the lists of a folder, at least so many, against the emulated lathes.
@@ -235,17 +219,13 @@ fn lathes_move_as(folder: &str, least: usize) {
     let mut wrong = Vec::new();
     let mut counts: BTreeMap<String, (usize, usize)> = BTreeMap::new();
     for (path, expectation) in expectations_of(folder) {
-        let (mut wanted, mut ends) = (expectation.list(), expectation.ends.as_str());
+        let wanted = expectation.list();
         let (found, end) = moves(&expectation);
-        if REFUSED.iter().any(|name| path.ends_with(name)) {
-            wanted.truncate(found.len());
-            ends = "alarm";
-        }
         if let Some(difference) = difference(&found, &wanted) {
             wrong.push(format!("{}: {difference}", path.display()));
         }
-        if end != ends {
-            wrong.push(format!("{}: ends by {end}, not {ends}", path.display()));
+        if end != expectation.ends {
+            wrong.push(format!("{}: ends by {end}, not {}", path.display(), expectation.ends));
         }
         let count = counts.entry(expectation.control).or_default();
         *count = (count.0 + 1, count.1 + wanted.len());

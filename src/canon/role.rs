@@ -333,6 +333,12 @@ impl Role {
         )
     }
 
+    /// True for the corner after a move, or the angle of a line: what a drawing gives in place of coordinates.
+    pub const fn is_drawn(self) -> bool {
+        let corner = matches!(self, Role::CornerRadius | Role::CornerChamfer | Role::RoundNext);
+        corner || matches!(self, Role::ChamferX | Role::ChamferZ | Role::ChamferNext | Role::LineAngle)
+    }
+
     /// True for a scale factor.
     pub const fn is_scale(self) -> bool {
         matches!(self, Role::Scale | Role::ScaleX | Role::ScaleY | Role::ScaleZ)

@@ -26,6 +26,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.contour.moves", "the cycles of contours move as docs/lathe.md says"),
     ("machine:lathe.contour.steps", "increments of a contour count from where the finishing began"),
     (
+        "machine:lathe.corner.read",
+        "what a program reads while a block waits for the next one is as it was before that block",
+    ),
+    (
         "machine:lathe.face.centre",
         "a way through the centre of the spindle in polar interpolation turns C half round",
     ),

@@ -113,6 +113,11 @@ impl Question {
         Self::ALL.iter().copied().find(|question| question.name() == name)
     }
 
+    /// True for what a shop chooses for its programs, whatever the control can do.
+    pub const fn is_choice(self) -> bool {
+        matches!(self, Self::Corners)
+    }
+
     /// The question whose answer this fact is.
     pub fn of_fact(fact: &str) -> Option<Self> {
         Self::find(fact.strip_prefix("behaviour:")?)
@@ -234,6 +239,7 @@ questions! {
                                                     level, and along it only with an allowance for that pass", if "op:contour.turning";
     RoughingValleys "roughing.valleys" OneOf(&["axes", "word"]), "what says that the contour of a roughing has valleys: the axes that its first block names, or a word of the cycle", if "op:contour.turning";
     CornerLetters "corner.letters" OneOf(&["axes", "letters"]), "how a corner without a comma is written: I, K and R, or C, R and A", if "said";
+    Corners "corners" OneOf(&["words", "moves"]), "how corners and angles of lines are written in programs for this lathe: by their words, or as moves", if "said";
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
     HolePecks "hole.pecks" OneOf(&["plane", "clearance", "unknown"]), "how far a peck of a lathe's drilling cycle goes back: to its retract plane, or by a \

@@ -137,6 +137,7 @@ fn acts_by(dialect: &Dialect, question: Question, row: Option<&Behaviour>, value
     // A number that no table has is one that only the machine has.
     let of_machine = row.is_none() && question.answers() == Answers::Number;
     of_machine
+        || question.is_choice()
         || row.is_some_and(settles)
         || registry::all()
             .iter()

@@ -1,6 +1,6 @@
 //! What the passes of legalization make of a program moves as its list says: conversions run on the target's control.
 
-use super::{Expectation, Move, difference, difference_by, expectations, moves};
+use super::{Expectation, Move, difference, difference_by, expectations, expectations_of, moves};
 use crate::support::root;
 use macroglot::dialect::{Control, Profile, registry};
 use macroglot::ir::Module;
@@ -83,7 +83,6 @@ fn of_target(
     let kept: String = kept.flat_map(|line| [line, "\n"]).collect();
     Expectation {
         c_axis: expectation.c_axis,
-        corners: expectation.corners,
         control: converts.to.clone(),
         run: made.texts.iter().enumerate().filter_map(write).collect(),
         ends: expectation.ends.clone(),
@@ -191,6 +190,10 @@ const ROUNDED: f64 = 0.011;
 /// What the rounding of ends does to the centre of an arc by its radius, and to its angle.
 const ROUNDED_ARC: f64 = 0.02;
 
+/// The same of ends that are written in thousandths of a millimetre, and of an arc of 1.5 between two of them, degrees too.
+const WRITTEN: f64 = 0.001;
+const WRITTEN_ARC: f64 = 0.03;
+
 /// Every program of every list that has a conversion makes the same moves there, but for the rounding of words.
 #[test]
 fn every_conversion_moves_as_its_source() {
@@ -224,4 +227,51 @@ fn every_conversion_moves_as_its_source() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     eprintln!("conversions that move alike: {count}");
     assert!(count >= 90, "{count}");
+}
+
+/// Corners of lathes, and lines by their angle, that are written out go where the lists of their geometry say, but for the rounding of
+/// words.
+#[test]
+fn corners_that_are_written_out_move_as_their_lists_say() {
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    let is_drawn =
+        |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("dimensions-"));
+    let lists = expectations_of("tests/motions/expected-live");
+    for (path, expectation) in lists.into_iter().filter(|(path, _)| is_drawn(path)) {
+        for to in ["fanuc", "haas"] {
+            // How roughing ends is another thing on each of the two.
+            let roughs =
+                inputs(&expectation).iter().any(|input| input.bytes.windows(3).any(|word| word == b"G71"));
+            if roughs && to != expectation.control {
+                continue;
+            }
+            count += 1;
+            let profile =
+                "machine = \"lathe\"\nunits = \"metric\"\n[behaviours]\ncorners = \"moves\"\n".to_owned();
+            let source = control(&expectation.control, &expectation.profile);
+            let target = control(to, &format!("dialect = \"{to}\"\n{profile}"));
+            let made = conversion(&expectation, &source, &target);
+            let name = format!("{} to {to}", path.display());
+            if let Some(refused) = made.programs.iter().find(|program| program.outcome == Outcome::Refused) {
+                wrong.push(format!("{name}: {:?}", refused.diagnostics));
+                continue;
+            }
+            let mut lines = made.texts.iter().flatten().flat_map(|text| text.lines());
+            if lines.any(|line| !line.contains('(') && (line.contains(',') || line.contains(" A"))) {
+                wrong.push(format!("{name}: a corner stays a word"));
+            }
+            let converts = Converts { to: to.into(), files: Vec::new(), profile, scenario: None };
+            let folder = tempfile::tempdir().unwrap();
+            let there = of_target(&expectation, &converts, &made, folder.path());
+            let (found, end) = moves(&there);
+            let alike =
+                |a: &Move, b: &Move| a.is_within(b, if a.kind == "arc" { WRITTEN_ARC } else { WRITTEN });
+            if let Some(difference) = difference_by(&found, &there.list(), alike) {
+                wrong.push(format!("{name}: {difference}\n{:?}", made.texts));
+            }
+            assert_eq!(end, expectation.ends, "{name}");
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(count >= 16, "{count}");
 }

@@ -194,6 +194,9 @@ impl Machine {
     /// Does what a block says. What it moved and switched stands in the trace; an alarm
     /// leaves the machine where it was when the alarm came.
     pub fn run(&mut self, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+        if self.rules.lathe && lathe::waiting::takes(self, command, trace)? {
+            return Ok(());
+        }
         block::run(self, command, trace)
     }
 
@@ -224,7 +227,7 @@ impl Machine {
 
     /// The interpolation in force, a drilling cycle left out.
     pub fn motion(&self) -> Op {
-        self.motion
+        if self.waits() { Op::Linear } else { self.motion }
     }
 
     /// Machine position, millimetres.

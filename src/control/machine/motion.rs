@@ -15,11 +15,10 @@ const LENGTH_AXIS: usize = 2;
 const CORNERS: [(Role, bool); 2] = [(Role::CornerRadius, false), (Role::CornerChamfer, true)];
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
-    let (from, turn) = (machine.position, machine.lathe.turn.take());
-    let angled = lathe::corner::angled(machine, command)?;
-    let command = angled.as_ref().unwrap_or(command);
     let cuts = moves(machine, command, trace)?;
-    lathe::corner::after(machine, command, (from, turn, cuts), trace)?;
+    if machine.rules.lathe {
+        return Ok(());
+    }
     let mut corners = CORNERS.iter().filter_map(|(role, chamfer)| Some((command.word(*role)?, *chamfer)));
     if let Some(corner) = corners.next() {
         let second = corners.next();

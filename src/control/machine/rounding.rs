@@ -127,6 +127,23 @@ impl Machine {
         }
     }
 
+    /// How far the rounding to a least increment puts a place of the program off that the control works out, millimetres.
+    pub(super) fn off_place(&self, place: f64) -> f64 {
+        let increment = self.least_length() * self.unit();
+        if increment <= 0.0 || !place.is_finite() {
+            return 0.0;
+        }
+        let off = (place - (place / increment).round() * increment).abs();
+        if off < WHOLE { 0.0 } else { off }
+    }
+
+    /// An axis ends at a place that the control worked out, and that is so far off.
+    pub(super) fn round_place(&mut self, axis: usize, off: f64) {
+        if let Some(kept) = self.rounding.axes.get_mut(axis) {
+            *kept = kept.max(off);
+        }
+    }
+
     /// Takes in the words of a block that sets the frame of coordinates.
     pub(super) fn round_frame(&mut self, op: Op, command: &Command) {
         use Op::{LocalShift, MirrorOn, RotateOff, RotateOn, ScaleOn, SetPosition, ShiftCancel, WriteWork};

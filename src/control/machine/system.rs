@@ -31,6 +31,9 @@ impl Machine {
         if matches!(state, Sys::MachinePosition | Sys::ProbePoint) {
             self.round_read();
         }
+        if self.waits() {
+            trace.doubt("machine:lathe.corner.read");
+        }
         if self.rules.lathe && self.rules.turning.radii && (state.is_length() || state.is_tool_offset()) {
             // In what it is read then no source says.
             return None;

@@ -87,6 +87,9 @@ impl<'c> Runner<'c> {
         command.clear();
         self.command = command;
         done?;
+        if self.session.machine.waits() && (call.is_some() || self.goes_elsewhere(meaning)) {
+            return Err(self.lathe_stop(self.session.machine.waits_in_vain()));
+        }
         if let Some(text) = shown {
             let what = EventKind::Message { text: text.clone() };
             self.session.pause(Pause::Stop, what);
@@ -198,6 +201,11 @@ impl<'c> Runner<'c> {
 
     /// After which moves of a lathe's cycle a modal call calls, no source says.
     fn refuse_modal_call(&mut self) -> Result<(), Halt> {
+        let drawn =
+            self.session.machine.waits() || self.command.words.iter().any(|(role, _)| role.is_drawn());
+        if drawn && self.session.machine.is_lathe() && self.has_modal_call() {
+            return Err(self.lathe_stop(Stop::unnamed("a corner or an angle while a modal call is in force")));
+        }
         let motion = self.command.of(Group::Motion).unwrap_or(self.session.machine.motion());
         let passes = motion.is_pass() && self.command.has_axes();
         if (passes || self.command.ops.iter().any(|op| op.is_lathe_cycle())) && self.has_modal_call() {

@@ -1,6 +1,6 @@
 //! Contours: the blocks from P to Q of the running program, which a cycle of a lathe reads (R3 to R8, K12 of docs/lathe.md).
 
-use super::code::{At, Block, Meaning, Step};
+use super::code::{At, Block, Coded, Meaning, Step};
 use super::run::{Loaded, Next, Runner};
 use crate::canon::{Op, Role};
 use crate::control::machine::{Command, Contour, Contoured};
@@ -134,18 +134,19 @@ impl Runner<'_> {
 
     /// Calls, returns and ends have no place in a contour (R7).
     pub fn refuse_flow(&self, meaning: &Meaning) -> Result<(), Halt> {
-        let flows = |op: Op| op.is_flow();
-        let calls = meaning
-            .codes
-            .iter()
-            .any(|code| code.alias.is_some() || self.row(code.row).is_some_and(|row| flows(row.op)));
-        match self.contour.is_some() && calls {
+        match self.contour.is_some() && self.goes_elsewhere(meaning) {
             true => {
                 Err(self
                     .lathe_stop(Stop::alarm("PS0210", "a call or a return between the blocks of a contour")))
             }
             false => Ok(()),
         }
+    }
+
+    /// True for a block with a call, a return or an end.
+    pub fn goes_elsewhere(&self, meaning: &Meaning) -> bool {
+        let flows = |code: &Coded| self.row(code.row).is_some_and(|row| row.op.is_flow());
+        meaning.codes.iter().any(|code| code.alias.is_some() || flows(code))
     }
 
     /// Keeps the words of a block for the contour that is being read.

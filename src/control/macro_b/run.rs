@@ -321,6 +321,9 @@ impl<'c> Runner<'c> {
 
     /// After the last block of a program.
     fn runs_out(&mut self) -> Result<(), Halt> {
+        if self.session.machine.waits() {
+            return Err(self.lathe_stop(self.session.machine.waits_in_vain()));
+        }
         if self.frames.len() <= 1 {
             return Err(Halt::Ended(Op::End));
         }

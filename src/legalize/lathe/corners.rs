@@ -3,10 +3,9 @@
 //! Law: a corner after a move along one axis, before one along the other, is the corner between two lines, of the size without its
 //! sign. Side conditions: the size is a number, and the next block is known to go the way that the sign says: otherwise the source
 //! stops at an alarm. Counter-example: `Z-20. R-2.` before `X50.`, which goes outward.
-//! A line by its angle stays one where the target has a word for that; else it is refused.
+//! Where the source writes them with C and R, as a drawing gives them, a corner without a sign stands between any two lines.
 
 use super::place::Place;
-use super::settings::takes;
 use super::straight::{entered_straight, goes_on_to};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -25,22 +24,23 @@ const WORDS: [(Role, Role); 4] = [
 
 /// True where there are such words.
 pub fn concerns(features: &Features) -> bool {
-    features.role(Role::LineAngle) || WORDS.iter().any(|(role, _)| features.role(*role))
+    WORDS.iter().any(|(role, _)| features.role(*role))
 }
 
 /// Takes the signs away; true where there were any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
-    let angles = takes(context.target, Op::Linear, Role::LineAngle);
+    let letters = context.source.behaviour(Question::CornerLetters).is_some_and(|row| row.value == "letters");
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let (mut found, mut lines) = (Vec::new(), Vec::new());
+        let mut found = Vec::new();
         for (at, place, known) in corners(program) {
             let next = next_of(program, at, place);
             let Some(stmt) = program.blocks.get(at).and_then(|block| block.stmts.get(place)) else {
                 continue;
             };
             let span = stmt.site.span;
-            let made = stmt.kind.nc().ok_or_else(String::new).and_then(|nc| plain(nc, next, known));
+            let made =
+                stmt.kind.nc().ok_or_else(String::new).and_then(|nc| plain(nc, next, (known, letters)));
             match made {
                 Ok(nc) => {
                     let block = program.blocks.get_mut(at);
@@ -53,24 +53,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 Err(what) => found.push((span, Err(what))),
             }
         }
-        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
-            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-            if nc.word(Role::LineAngle).is_some() {
-                lines.push(stmt.site.span);
-                // The letter means that beside the code alone.
-                if !nc.has(Op::Linear) {
-                    nc.items.insert(0, NcItem::Op(Op::Linear));
-                    changed = true;
-                }
-            }
-        }
-        for span in lines {
-            context.rests_on_source(index, span, Question::LineAngle);
-            context.rests_on_target(index, span, Question::LineAngle);
-            if !angles {
-                context.add(index, Diagnostic::new(Code::NoEquivalent, span, NO_ANGLE));
-            }
-        }
         for (span, result) in found {
             context.rests_on_source(index, span, Question::CornerLetters);
             if let Err(what) = result {
@@ -81,8 +63,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     }
     changed
 }
-
-const NO_ANGLE: &str = "the target has no word for the angle of a line: write X and Z of its end";
 
 /// The statements with such a word, and where the tool stands before each.
 fn corners(program: &Program) -> Vec<(usize, usize, Place)> {
@@ -113,7 +93,7 @@ fn next_of(program: &Program, at: usize, place: usize) -> Option<&Nc> {
 }
 
 /// The block with the corner without its sign.
-fn plain(nc: &Nc, next: Option<&Nc>, place: Place) -> Result<Nc, String> {
+fn plain(nc: &Nc, next: Option<&Nc>, (place, letters): (Place, bool)) -> Result<Nc, String> {
     let mut words = WORDS.iter().filter_map(|(role, plain)| Some((*role, *plain, nc.word(*role)?)));
     let (Some((role, plain, value)), None) = (words.next(), words.next()) else {
         return Err("two corners in one block".into());
@@ -124,6 +104,18 @@ fn plain(nc: &Nc, next: Option<&Nc>, place: Place) -> Result<Nc, String> {
                 .into(),
         );
     };
+    let without_sign = || {
+        let item = |item: &NcItem| match item {
+            NcItem::Word(found, _) if WORDS.iter().any(|(role, _)| role == found) => {
+                NcItem::Word(plain, Expr::Number(size.abs()))
+            }
+            other => other.clone(),
+        };
+        Nc { items: nc.items.iter().map(item).collect() }
+    };
+    if letters && size > 0.0 {
+        return Ok(without_sign());
+    }
     let axes = |nc: &Nc| {
         [[Role::X, Role::StepX], [Role::Z, Role::StepZ]]
             .map(|roles| roles.into_iter().find(|role| nc.word(*role).is_some()))
@@ -158,17 +150,13 @@ fn plain(nc: &Nc, next: Option<&Nc>, place: Place) -> Result<Nc, String> {
     };
     let before = if along_x { place.z() } else { place.x() };
     let value = next.word(role).and_then(Expr::constant);
-    let way = if role.is_step() { value } else { value.zip(before).map(|(to, from)| to - from) };
+    let way = if role.is_step() || place.counts_steps() {
+        value
+    } else {
+        value.zip(before).map(|(to, from)| to - from)
+    };
     match way {
-        Some(way) if way * size > 0.0 => {
-            let item = |item: &NcItem| match item {
-                NcItem::Word(found, _) if WORDS.iter().any(|(role, _)| role == found) => {
-                    NcItem::Word(plain, Expr::Number(size.abs()))
-                }
-                other => other.clone(),
-            };
-            Ok(Nc { items: nc.items.iter().map(item).collect() })
-        }
+        Some(way) if way * size > 0.0 => Ok(without_sign()),
         Some(_) => Err(
             "the sign of this corner says another way than the next block goes: the source stops at an alarm"
                 .into(),

@@ -1,10 +1,12 @@
 //! Lathes: cycles in one block or two, contours, holes, increments, machine coordinates, units, and programs of the other kind of machine.
 
+mod contour_starts;
 pub mod contours;
 pub mod corners;
 pub mod counts;
 mod cycle_values;
 pub mod cycle_words;
+mod drawn_lines;
 pub mod faces;
 pub mod hole_codes;
 pub mod hole_returns;
@@ -21,4 +23,5 @@ pub mod steps;
 pub mod straight;
 pub mod thread_form;
 pub mod unit_agrees;
+pub mod written_corners;
 pub mod x_counts;

@@ -14,6 +14,8 @@ pub struct Place {
     passes: Option<bool>,
     /// Whether a drilling cycle is in force, and whether it goes along X.
     hole: Option<bool>,
+    /// Whether X and Z are increments, as far as a code of the blocks before says it.
+    steps: Option<bool>,
     /// True where every hole ends where its cycle began.
     keeps_level: bool,
     /// The numbers of the first and the last block of the contour that a cycle read.
@@ -44,6 +46,11 @@ impl Place {
         self.hole.is_some()
     }
 
+    /// True where a code of the blocks before makes X and Z increments.
+    pub fn counts_steps(&self) -> bool {
+        self.steps == Some(true)
+    }
+
     /// X, a diameter.
     pub fn x(&self) -> Option<f64> {
         self.at.x
@@ -52,6 +59,21 @@ impl Place {
     /// Z.
     pub fn z(&self) -> Option<f64> {
         self.at.z
+    }
+
+    /// Takes what is known of where the cycles begin that read the contour that begins here.
+    pub fn knows(&mut self, x: Option<f64>, z: Option<f64>) {
+        self.at = At { x: self.at.x.or(x), z: self.at.z.or(z) };
+    }
+
+    /// Keeps what agrees with where the cycles begin that read the contour that begins here, and that are come to elsewhere.
+    pub fn agrees(&mut self, x: Option<f64>, z: Option<f64>) {
+        self.at = At { x: self.at.x.filter(|at| Some(*at) == x), z: self.at.z.filter(|at| Some(*at) == z) };
+    }
+
+    /// The tool stands there, whatever the words of the last block are rounded to.
+    pub fn lies_at(&mut self, x: f64, z: f64) {
+        self.at = At { x: Some(x), z: Some(z) };
     }
 
     /// True inside a contour.
@@ -101,6 +123,13 @@ impl Place {
         if let Some(op) = nc.ops().filter(|op| matches!(op.group(), Group::Motion | Group::Cycle)).last() {
             self.hole = op.is_hole().then_some(op.is_side_hole());
         }
+        if let Some(mode) = nc.ops().filter(|op| op.group() == Group::Distance).last() {
+            // What the words before counted is not sure.
+            if self.steps.is_none() {
+                self.at = At::default();
+            }
+            self.steps = Some(mode == Op::Incremental).filter(|_| !skipped);
+        }
         // A new offset or shift moves the coordinates under the tool.
         if !nc.ops().all(is_plain) {
             self.at = At::default();
@@ -141,14 +170,15 @@ impl Place {
 
     fn word(&mut self, item: &NcItem) {
         let NcItem::Word(role, value) = item else { return };
+        let steps = self.counts_steps();
         let by = |from: Option<f64>| {
             from.zip(value.constant()).map(|(from, by)| ((from + by) * 1e6).round() / 1e6)
         };
         match role {
-            Role::X => self.at.x = value.constant(),
-            Role::StepX => self.at.x = by(self.at.x),
-            Role::Z => self.at.z = value.constant(),
-            Role::StepZ => self.at.z = by(self.at.z),
+            Role::X if !steps => self.at.x = value.constant(),
+            Role::Z if !steps => self.at.z = value.constant(),
+            Role::X | Role::StepX => self.at.x = by(self.at.x),
+            Role::Z | Role::StepZ => self.at.z = by(self.at.z),
             _ => {}
         }
     }
@@ -168,7 +198,6 @@ fn is_plain(op: Op) -> bool {
             | Op::PolarPlaneOff
             | Op::Cylinder
     );
-    let frame =
-        matches!(op.group(), Group::WorkOffset | Group::Units | Group::Distance) || op == Op::TurretIndex;
+    let frame = matches!(op.group(), Group::WorkOffset | Group::Units) || op == Op::TurretIndex;
     !op.takes_axes() && !elsewhere && !frame
 }

@@ -6,7 +6,7 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes, interpolations,
-    lone_steps, rapid_in_force, roughing, steps, unit_agrees, x_counts,
+    lone_steps, rapid_in_force, roughing, steps, unit_agrees, written_corners, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -37,6 +37,13 @@ pub(super) const LATHE: &[Pass] = &[
     Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)
         .when(|c, _| corners::concerns(c))
         .needs(&["start", "beside-moves"]),
+    Pass::edits(
+        "written-corners",
+        "corners and lines by their angle become moves where the target has no words for them",
+        written_corners::run,
+    )
+    .when(written_corners::concerns)
+    .needs(&["corners", "increments", "units"]),
     Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
         .when(steps::mode_to_letters)
         .needs(&["start", "beside-moves"]),
@@ -99,5 +106,5 @@ pub(super) const LATHE: &[Pass] = &[
         .needs(&["lathe-cycles", "beside-moves", "pauses"]),
     Pass::edits("x-counts", "X is a radius, where the target is set to radii", x_counts::run)
         .when(x_counts::concerns)
-        .needs(&["lathe-counts", "corners"]),
+        .needs(&["lathe-counts", "written-corners"]),
 ];

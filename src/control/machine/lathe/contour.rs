@@ -37,7 +37,8 @@ impl Machine {
         trace.doubt("machine:lathe.contour.moves");
         let words = contour.blocks.iter().map(|block| self.most_off(&block.command, |_| true));
         let own = self.most_off(command, |role| role != Role::CutDepth);
-        let off = words.fold(own, f64::max);
+        let [x, z] = self.off_ends(&profile.pieces);
+        let off = words.fold(own, f64::max).max(x).max(z);
         trace.rounded = self.off_by() + 4.0 * off;
         match op {
             Op::RoughTurning => rough::run(self, command, &profile, 0, trace)?,

@@ -54,14 +54,7 @@ pub fn finish(
     let here = trace.at;
     for (block, pieces) in contour.blocks.iter().zip(&profile.blocks) {
         let mut command = block.command.clone();
-        use Role::{ChamferNext, ChamferX, ChamferZ, CornerChamfer, CornerRadius, LineAngle, RoundNext};
-        let corner = |role: Role| {
-            matches!(
-                role,
-                CornerRadius | CornerChamfer | ChamferX | ChamferZ | ChamferNext | RoundNext | LineAngle
-            )
-        };
-        command.words.retain(|(role, _)| !corner(*role));
+        command.words.retain(|(role, _)| !role.is_drawn());
         let moves = profile.pieces.get(pieces.clone()).filter(|pieces| !pieces.is_empty());
         machine.lathe.way = moves.map(<[_]>::to_vec);
         trace.at = block.at;

@@ -6,7 +6,8 @@
 mod along;
 pub(super) mod check;
 pub(super) mod contour;
-pub(super) mod corner;
+mod corner;
+mod drawn;
 mod finish;
 pub(super) mod groove;
 pub(super) mod holes;
@@ -21,6 +22,7 @@ pub(super) mod surface;
 pub(super) mod thread;
 pub(super) mod time;
 pub(super) mod turret;
+pub(super) mod waiting;
 pub(super) mod way;
 pub(super) mod zeros;
 
@@ -93,8 +95,8 @@ pub(super) struct Lathe {
     pub thread: Form,
     /// What the block goes along in place of its own words.
     pub way: Option<Vec<shape::Piece>>,
-    /// Where the next block must go, after a corner that says so.
-    pub turn: Option<corner::Turn>,
+    /// Blocks that wait for the next one.
+    pub waiting: Vec<waiting::Waiting>,
     /// Whether a word in incremental mode told the depth of the drilling cycle in force; none if a letter of its own did.
     pub hole_by_mode: Option<bool>,
     /// The last time of a wait, seconds.

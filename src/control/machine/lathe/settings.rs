@@ -18,6 +18,8 @@ pub struct Turning {
     pub inch_set: Option<bool>,
     /// True where X is written as a radius (C1).
     pub radii: bool,
+    /// True where corners are written by C and R without a comma (Q3).
+    pub letters: bool,
     /// True where only a word says that a contour has valleys (R6).
     pub valleys_by_word: bool,
     /// How far the end of an arc may lie off its circle (C8).
@@ -70,6 +72,7 @@ impl Turning {
                 .filter(|_| answer(Question::UnitsAgree) == Some("true"))
                 .map(|units| units == Units::Inch),
             radii: answer(Question::XCounts) == Some("radius"),
+            letters: answer(Question::CornerLetters) == Some("letters"),
             valleys_by_word: answer(Question::RoughingValleys) == Some("word"),
             arc_limit: told("arc.limit").map(|value| value * unit),
             depth: length(Role::CutDepth, &rough),

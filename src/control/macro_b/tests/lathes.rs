@@ -17,7 +17,10 @@ fn run(profile: &str, text: &str) -> Run {
 
 fn moves(run: &Run) -> Vec<[f64; 2]> {
     let ends = run.events.iter().filter_map(|event| match &event.what {
-        EventKind::Rapid { to, .. } | EventKind::Feed { to, .. } | EventKind::Thread { to, .. } => Some(to),
+        EventKind::Rapid { to, .. }
+        | EventKind::Feed { to, .. }
+        | EventKind::Arc { to, .. }
+        | EventKind::Thread { to, .. } => Some(to),
         _ => None,
     });
     ends.map(|to| [to.0[0], to.0[2]]).collect()
@@ -280,35 +283,61 @@ fn threads_run_out_as_the_settings_say() {
 #[test]
 fn corners_without_a_comma() {
     let letters = format!("{FANUC}[parameters]\n\"3405.4\" = 1\n");
-    let corners = |profile: &str, blocks: &str| {
+    let ways = |profile: &str, blocks: &str| {
         let run = run(profile, &format!("O1\nG0 X20. Z2.\n{blocks}\nM30\n"));
         assert!(!matches!(run.end, End::Alarm { .. }), "{blocks}: {:?}", run.end);
-        let found = run.events.iter().filter_map(|event| match &event.what {
-            EventKind::Corner { chamfer, size } => Some((*chamfer, *size)),
-            _ => None,
-        });
-        found.collect::<Vec<_>>()
+        moves(&run).into_iter().skip(1).collect::<Vec<_>>()
     };
-    assert_eq!(
-        corners(FANUC, "G1 Z-20. R3. F.2\nX40. K-1.\nZ-40. I2.\nX50."),
-        [(false, 3.0), (true, 1.0), (true, 2.0)]
-    );
-    assert_eq!(corners(&letters, "G1 Z-20. C-3. F.2\nX10. R-1.\nZ-40."), [(true, 3.0), (false, 1.0)]);
+    let signs = "G1 Z-20. R3. F.2\nX40. K-1.\nZ-40. I2.\nX50.";
+    let corners = [
+        [20.0, -17.0],
+        [26.0, -20.0],
+        [38.0, -20.0],
+        [40.0, -21.0],
+        [40.0, -38.0],
+        [44.0, -40.0],
+        [50.0, -40.0],
+    ];
+    assert_eq!(ways(FANUC, signs), corners);
+    let back = [[20.0, -17.0], [14.0, -20.0], [12.0, -20.0], [10.0, -21.0], [10.0, -40.0]];
+    assert_eq!(ways(&letters, "G1 Z-20. C-3. F.2\nX10. R-1.\nZ-40."), back);
+    // As a drawing gives them, without a sign, the next line may go any way.
+    assert_eq!(ways(&letters, "G1 Z-20. C3. F.2\nX10. R1.\nZ-40."), back);
 }
 
 #[test]
 fn corners_that_are_alarms() {
     let number = |blocks: &str| alarm(&run(FANUC, &format!("O1\nG0 X20. Z2.\n{blocks}\nM30\n"))).0;
     for (blocks, wanted) in [
+        ("G1 G42 Z-20. ,R3. F.2\nX40.", "PS0039"),
         ("G1 Z-20. R-3. F.2\nX40.", "PS0051"),
         ("G1 Z-20. R3. F.2\nX40. Z-30.", "PS0051"),
         ("G1 Z-20. R3. F.2\nG2 X40. Z-30. R10.", "PS0052"),
+        ("G1 Z-20. ,R3. F.2\nG0 X40.", "PS0052"),
+        ("G1 Z-20. ,C1. F.2\nM8\nX40.", "PS0052"),
+        ("G1 Z-20. ,C1. F.2", "PS0052"),
         ("G1 Z-20. R3. I1. F.2\nX40.", "PS0053"),
+        ("G1 Z-20. ,C1. ,R1. F.2\nX40.", "PS0053"),
         ("G1 X30. Z-20. R3. F.2\nX40.", "PS0054"),
         ("G1 Z-20. K3. F.2\nX40.", "PS0054"),
         ("G1 Z-20. R30. F.2\nX90.", "PS0055"),
         ("G1 Z-20. R12. F.2\nX40.", "PS0055"),
+        ("G1 Z-20. ,C12. F.2\nX40.", "PS0055"),
+        // Two corners that take more than the line between them.
+        ("G1 Z-20. ,C6. F.2\nX40. ,C6.\nZ-40.", "PS0055"),
+        ("G1 ,A180. F.2\nX40. Z-20.", "PS0056"),
+        ("G1 ,A180. F.2\nX40. ,A120.", "PS0056"),
         ("G1 X40. ,A180. F.2", "PS0057"),
+        ("G1 X40. ,A180.9 F.2", "PS0057"),
+        ("G1 ,A180. F.2\nX40. Z-20. ,A0.5", "PS0058"),
+        // No source says what these do.
+        ("G1 Z-20. ,R3. F.2\nG2 X40. Z-30. R10.", ""),
+        ("G1 Z-20. ,C-3. F.2\nX40.", ""),
+        ("G0 Z-20. ,C3.\nG1 X40. F.2", ""),
+        ("G1 Z-20. ,R3. F.2\nZ-30.", ""),
+        ("G1 Z-20. ,R3. F.2\nG4 P500\nX40.", ""),
+        ("G1 X40. Z-20. ,A135. F.2", ""),
+        ("G1 ,A135. F.2\nU20. W-20. ,A180.", ""),
     ] {
         assert_eq!(number(blocks), wanted, "{blocks}");
     }

@@ -79,21 +79,15 @@ impl Lowering<'_> {
         }
     }
 
-    /// A corner or an angle by a letter that is an axis of the machine, and an angle that gives no end.
+    /// A corner or an angle by a letter that is an axis of the machine.
     fn check_corner(&mut self, nc: &Nc, span: Span) {
         let listed =
             |axis: Axis| self.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
         let has = |role: Role| nc.word(role).is_some();
-        let (x, z) = (has(Role::X) || has(Role::StepX), has(Role::Z) || has(Role::StepZ));
         let what = if has(Role::ChamferNext) && listed(Axis::C) {
             "C is an axis of this machine, and no chamfer: its profile lists it"
         } else if has(Role::LineAngle) && listed(Axis::A) {
             "A is an axis of this machine, and no angle of a line: its profile lists it"
-        } else if has(Role::LineAngle) && !x && !z {
-            "the angle of a line without X and Z: the line ends where the next one begins, which is not worked out here. Write X and Z \
-             of its end"
-        } else if has(Role::LineAngle) && x && z {
-            "the angle of a line beside X and Z of its end: no source says which counts"
         } else {
             return;
         };
