@@ -142,6 +142,8 @@ pub struct Rules {
     pub roughing_along: Fact<bool>,
     /// A peck of a lathe's drilling cycle goes back to its retract plane, or by the clearance; none where nobody says it (Q7).
     pub pecks_to_plane: Fact<Option<bool>>,
+    /// A thread that is cut on both flanks begins with the leading one; none where that is said to be unknown (P6).
+    pub leading_first: Fact<Option<bool>>,
     /// The settings of a lathe.
     pub turning: Turning,
 }
@@ -251,6 +253,16 @@ impl Rules {
                 control,
                 Question::HolePecks,
                 |value| ["plane", "clearance"].contains(&value).then_some(Some(value == "plane")),
+                None,
+            ),
+            leading_first: fact(
+                control,
+                Question::ThreadFlanks,
+                |value| {
+                    ["leading.first", "trailing.first"]
+                        .contains(&value)
+                        .then_some(Some(value == "leading.first"))
+                },
                 None,
             ),
             turning: Turning::new(control),

@@ -61,16 +61,16 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(lone_steps::concerns)
     .needs(&["steps", "holes"]),
-    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
-        .when(steps::letters_to_mode)
-        .needs(&["beside-moves", "holes"]),
-    Pass::each(
+    Pass::edits_some(
         "lathe-cycles",
-        "depths, ways back and forms of a lathe's cycles stand where the target takes them from",
+        "depths, ways back and forms of a lathe's cycles stand where the target takes them from; threads that it has no cycle for are passes",
         cycle_words::run,
     )
     .when(cycle_words::concerns)
-    .needs(&["lathe-lengths"]),
+    .needs(&["steps", "lathe-lengths"]),
+    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
+        .when(steps::letters_to_mode)
+        .needs(&["beside-moves", "holes", "lathe-cycles"]),
     Pass::edits(
         "lathe-counts",
         "pecks and depths of a lathe's cycles count where the target counts",
