@@ -22,14 +22,19 @@ use crate::text::Span;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// True if there are such cycles, and the target does not take the values from where the source does.
+/// True if there are such cycles, and the target does not take the values from where the source does, or from a setting that is another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let rough = features.role(Role::RoughX) || features.role(Role::RoughZ);
+    let apart = |kind: &Kind, role: Role| {
+        let stated = |control| setting(control, kind.cycle, role).and_then(|(_, value)| value);
+        stated(context.source).zip(stated(context.target)).is_some_and(|(ours, theirs)| ours != theirs)
+    };
     let differs = |kind: &Kind| {
         features.op(kind.cycle)
             && kind.roles.iter().any(|role| {
                 takes(context.source, kind.setup, *role) != takes(context.target, kind.setup, *role)
                     || takes(context.source, kind.cycle, *role) != takes(context.target, kind.cycle, *role)
+                    || apart(kind, *role)
             })
     };
     rough || super::settings::KINDS.iter().any(differs)
@@ -158,7 +163,8 @@ impl Run<'_> {
         let mut new: Vec<Stmt> = Vec::with_capacity(old.len());
         let mut old = old.into_iter();
         while let Some(stmt) = old.next() {
-            let rapid = state.op(Group::Motion) == Some(Op::Rapid);
+            let rapid = [(Group::Motion, Op::Rapid), (Group::Cycle, Op::CycleOff)];
+            let rapid = rapid.iter().all(|(group, op)| state.op(*group) == Some(*op));
             state.step(&stmt);
             if let Some(kind) = setup_of(&stmt) {
                 new.extend(self.setup(kind, stmt));
