@@ -7,6 +7,7 @@
 
 use super::cycle_values::{Given, Need, Values, replace, resolve, told, values_of};
 use super::place::Place;
+use super::roughing::drop_rough;
 use super::settings::{Kind, setting, takes};
 use super::straight::entered_straight;
 use super::thread_passes::{all, finishes, says_how};
@@ -64,6 +65,7 @@ fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut C
         other_unit,
         modal: context.features.has(Feature::Modal),
         in_steps: context.features.op(Op::Incremental),
+        compensates: [Op::RadiusLeft, Op::RadiusRight].iter().any(|op| context.features.op(*op)),
         set: Vec::new(),
         place: Place::default(),
         found: Vec::new(),
@@ -151,6 +153,8 @@ struct Run<'c> {
     modal: bool,
     /// True where words of a place may be increments, by a mode.
     in_steps: bool,
+    /// True where the nose radius is compensated somewhere.
+    compensates: bool,
     set: Vec<Set>,
     place: Place,
     found: Found,
@@ -177,13 +181,18 @@ impl Run<'_> {
             }
             match cycle_of(&stmt) {
                 Some(kind) => {
-                    let ends_in_rapid = rapid || says_how(old.as_slice(), ends);
+                    let bare = !self.compensates || state.op(Group::RadiusComp) == Some(Op::RadiusOff);
+                    let may = match rapid || says_how(old.as_slice(), ends) {
+                        _ if !bare => Err("the nose radius may be compensated"),
+                        true => Ok(()),
+                        false => Err("the next block moves by the code of before"),
+                    };
                     let units = match state.op(Group::Units) {
                         Some(Op::Inch) => Some(Units::Inch),
                         Some(Op::Metric) => Some(Units::Metric),
                         _ => self.source.units(),
                     };
-                    new.extend(self.cycle(kind, stmt, units, ends_in_rapid));
+                    new.extend(self.cycle(kind, stmt, units, may));
                 }
                 None if matches!(stmt.kind, StmtKind::Comment) => {
                     new.push(stmt);
@@ -248,7 +257,7 @@ impl Run<'_> {
         kind: &'static Kind,
         mut stmt: Stmt,
         units: Option<Units>,
-        ends_in_rapid: bool,
+        may: Result<(), &'static str>,
     ) -> Vec<Stmt> {
         let span = stmt.site.span;
         let set = self.set.iter().find(|set| set.setup == kind.setup);
@@ -273,7 +282,7 @@ impl Run<'_> {
             given.as_ref().is_ok_and(|given| given.needs.iter().any(|need| self.is_set_otherwise(need)));
         let mut why = String::new();
         if threads.is_some() && (given.is_err() || elsewhere) {
-            match self.written_out(&stmt, &all, kind, ends_in_rapid) {
+            match may.and_then(|()| self.written_out(&stmt, &all, kind)) {
                 Ok(passes) => return passes,
                 Err(because) => why = format!("; its passes are not written out: {because}"),
             }
@@ -295,7 +304,7 @@ impl Run<'_> {
         self.found.extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, Some(needs))));
         let passes = match more {
             0 => Some(Vec::new()),
-            more => finishes(&stmt, (angle, more), self.place, self.target).filter(|_| ends_in_rapid),
+            more => finishes(&stmt, (angle, more), self.place, self.target).filter(|_| may.is_ok()),
         };
         if passes.is_none() {
             self.refuse(span, FINISHES, FINISHES_HELP);
@@ -321,18 +330,9 @@ impl Run<'_> {
     }
 
     /// The passes of a thread, in place of its cycle; why there are none.
-    fn written_out(
-        &mut self,
-        stmt: &Stmt,
-        values: &Values,
-        kind: &Kind,
-        ends_in_rapid: bool,
-    ) -> Result<Vec<Stmt>, &'static str> {
+    fn written_out(&mut self, stmt: &Stmt, values: &Values, kind: &Kind) -> Result<Vec<Stmt>, &'static str> {
         if self.in_steps {
             return Err("words of a place may be increments");
-        }
-        if !ends_in_rapid {
-            return Err("the next block moves by the code of before");
         }
         let by_setting = |role: &Role| role.is_length() && setting(self.source, kind.cycle, *role).is_some();
         if self.other_unit && kind.roles.iter().any(by_setting) {
@@ -366,19 +366,6 @@ fn names_other_unit(program: &Program, control: &Control) -> bool {
     };
     let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
     stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(other)))
-}
-
-/// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
-/// that the passes differ.
-fn drop_rough(nc: &mut Nc, source: &Control, target: &Control) {
-    let is_along =
-        |control: &Control| control.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
-    let along = is_along(target) && !is_along(source);
-    let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return };
-    let rough = |role: Role| matches!(role, Role::RoughX | Role::RoughZ) && !takes(target, op, role);
-    if along {
-        nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if rough(*role)));
-    }
 }
 
 const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \
