@@ -67,6 +67,10 @@ class Live(Lathe):
         """
         if f is not None:
             self.set_feed(f)
+        kept = (self.speed, self.mode)
+        if hand:
+            # A tap advances its lead with each turn (Q11).
+            self.speed, self.mode = self.speed * self.rpm, "per_minute"
         self.turn(c, x, z)
         self.rapid(**{axis: r})
         self._write("hole", self.now, number(self.place(**{axis: bottom})[0 if axis == "x" else 2]))
@@ -88,6 +92,7 @@ class Live(Lathe):
             self.spindle(ways[1])
             self.feed(**{axis: r})
             self.spindle(ways[0])
+            self.speed, self.mode = kept
         elif out == "stop":
             before = self.turning
             self.turned("stopped")
@@ -285,10 +290,9 @@ part.turn(z=1.0)
 part.face(-4.0, c=45, r=3.0)
 part.turn(z=30.0)
 
-part = Live("haas", "tap", "G84 on the centre line with feed a turn: in and out by the lead of 1.25, from Z8., plane Z3.")
-part.mode = "per_turn"
+part = Live("haas", "tap", "G84 on the centre line with feed a turn: in and out by the lead of 1.25, at 500 turns 625 a minute (Q11), from Z8., plane Z3.")
 part.turn(0, 0.0, 8.0)
-part.face(-15.0, r=3.0, back=8.0, f=1.25, out="feed")
+part.face(-15.0, r=3.0, back=8.0, f=1.25 * 500, out="feed")
 part.turn(z=40.0)
 
 part = Live("haas", "side",

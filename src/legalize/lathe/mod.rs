@@ -17,6 +17,7 @@ pub mod roughing;
 pub mod settings;
 pub mod steps;
 pub mod straight;
+pub mod tap_feeds;
 pub mod thread_form;
 pub mod thread_passes;
 mod threads;

@@ -6,7 +6,7 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contours, corners, counts, cycle_words, hole_codes, hole_returns, holes, interpolations, lone_steps,
-    rapid_in_force, roughing, steps, unit_agrees, x_counts,
+    rapid_in_force, roughing, steps, tap_feeds, unit_agrees, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -49,9 +49,12 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(hole_returns::concerns)
     .needs(&["steps", "hole-codes"]),
+    Pass::edits("tap-feeds", "taps in feed a minute get their lead, where the target's take it", tap_feeds::run)
+        .when(tap_feeds::concerns)
+        .needs(&["hole-returns"]),
     Pass::edits("holes", "drilling cycles of a lathe get the target's planes and codes", holes::run)
         .when(holes::concerns)
-        .needs(&["steps", "lathe-lengths", "hole-returns"]),
+        .needs(&["steps", "lathe-lengths", "hole-returns", "tap-feeds"]),
     Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
         .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
     Pass::each(

@@ -239,7 +239,7 @@ const NO_WAIT: &str = "the target's code for this hole takes no wait at the bott
 const TAP: &str = "the target has no code for this tap";
 const TAP_HELP: &str = "write the tap for the target by hand";
 const BY_MINUTE: &str = "a tap of a live tool while F is a feed a minute, or nobody knows: the target's cycle takes F as the lead";
-const BY_MINUTE_HELP: &str = "tap in feed a turn, with the lead as F";
+const BY_MINUTE_HELP: &str = "write S and F as numbers before the tap, and G80 after its holes; or tap in feed a turn, with the lead as F";
 const NO_SPEED: &str =
     "the target's tap turns its live tool at the last S, and which speed that is, is not known here";
 const NO_SPEED_HELP: &str =
