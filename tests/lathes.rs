@@ -71,6 +71,7 @@ fn program(source: &mut Source) -> String {
 const HOME: &str = "G0 X64. Z3.";
 
 fn part(source: &mut Source, number: u64, out: &mut String) {
+    let by_minute = source.below(2) as usize;
     let _ = match source.below(17) {
         0 => {
             let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
@@ -146,8 +147,10 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
         ),
         15 => writeln!(
             out,
-            "M5\nG97 S500\nG0 X50. C0.\nM29 S500\nG84 {}Z-18. R-1. F1.25\nC60.\nG80\nG0 Z-10.\nG89 X36. C90. R-1.5 {}F.1\nG80\nG97 S800 M3",
+            "M5\nG97 S500\n{}\nM29 S500\nG84 {}Z-18. R-1. {}\nC60.\nG80\nG99 G0 Z-10.\nG89 X36. C90. R-1.5 {}F.1\nG80\nG97 S800 M3",
+            ["G0 X50. C0.", "G98 G0 X50. C0."][by_minute],
             source.pick(&["", "X44. "]),
+            ["F1.25", "F625."][by_minute],
             source.pick(&["", "P200 "])
         ),
         _ => writeln!(
