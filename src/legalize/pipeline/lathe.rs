@@ -49,9 +49,13 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(hole_returns::concerns)
     .needs(&["steps", "hole-codes"]),
-    Pass::edits("tap-feeds", "taps in feed a minute get their lead, where the target's take it", tap_feeds::run)
-        .when(tap_feeds::concerns)
-        .needs(&["hole-returns"]),
+    Pass::edits(
+        "tap-feeds",
+        "taps in feed a minute get their lead, where the target's take it",
+        tap_feeds::run,
+    )
+    .when(tap_feeds::concerns)
+    .needs(&["hole-returns"]),
     Pass::edits("holes", "drilling cycles of a lathe get the target's planes and codes", holes::run)
         .when(holes::concerns)
         .needs(&["steps", "lathe-lengths", "hole-returns", "tap-feeds"]),
@@ -66,7 +70,7 @@ pub(super) const LATHE: &[Pass] = &[
     .needs(&["steps", "holes"]),
     Pass::edits_some(
         "lathe-cycles",
-        "depths, ways back and forms of a lathe's cycles stand where the target takes them from; threads that it has no cycle for are passes",
+        "cycles of a lathe take their values where the target does; threads without one are moves",
         cycle_words::run,
     )
     .when(cycle_words::concerns)
