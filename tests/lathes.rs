@@ -71,7 +71,8 @@ fn program(source: &mut Source) -> String {
 const HOME: &str = "G0 X64. Z3.";
 
 fn part(source: &mut Source, number: u64, out: &mut String) {
-    let _ = match source.below(18) {
+    let by_minute = source.below(2) as usize;
+    let _ = match source.below(19) {
         0 => {
             let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
             writeln!(out, "G90 X58. {end}{taper} F.2\nX56.\nX54.")
@@ -108,8 +109,11 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
         6 => writeln!(out, "G0 X0.\nG74 R.5\nG74 Z-{} Q7000 F.1", source.pick(&["20.", "31."])),
         7 => writeln!(
             out,
-            "G76 P0{}0060 Q50 R.05\nG76 X60. Z-20. {}P{} Q300 F1.5",
+            "G76 P0{}00{} Q{} R{}\nG76 X60. Z-20. {}P{} Q300 F1.5",
             source.pick(&["1", "2", "3"]),
+            source.pick(&["60", "55", "00"]),
+            source.pick(&["50", "80"]),
+            source.pick(&[".05", ".02"]),
             source.pick(&["", "R-.4 "]),
             source.pick(&["920", "1200"])
         ),
@@ -165,6 +169,14 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
             source.pick(&["180", "175"]),
             source.pick(&["", " ,R2.", " ,C.8"]),
             source.pick(&["120", "150"])
+        ),
+        17 => writeln!(
+            out,
+            "M5\nG97 S500\n{}\nM29 S500\nG84 {}Z-18. R-1. {}\nC60.\nG80\nG99 G0 Z-10.\nG89 X36. C90. R-1.5 {}F.1\nG80\nG97 S800 M3",
+            ["G0 X50. C0.", "G98 G0 X50. C0."][by_minute],
+            source.pick(&["", "X44. "]),
+            ["F1.25", "F625."][by_minute],
+            source.pick(&["", "P200 "])
         ),
         _ => writeln!(
             out,

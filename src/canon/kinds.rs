@@ -83,14 +83,18 @@ impl Op {
     /// True for a drilling cycle of a lathe, which goes along Z or along X whatever the plane is.
     pub const fn is_hole(self) -> bool {
         use Op::*;
-        matches!(self, FaceHole | FaceDrill | FaceDrillDwell | FacePeck | FaceTap | FaceTapMain | FaceBore)
-            || self.is_side_hole()
+        let drills = matches!(self, FaceHole | FaceDrill | FaceDrillDwell | FacePeck);
+        let taps = matches!(self, FaceTap | FaceTapMain | FaceTapMainLeft | FaceTapLive | FaceTapLiveLeft);
+        let bores = matches!(self, FaceBore | FaceBoreStop | FaceBoreDwell);
+        drills || taps || bores || self.is_side_hole()
     }
 
     /// True for one that goes along X.
     pub const fn is_side_hole(self) -> bool {
         use Op::*;
-        matches!(self, SideHole | SideDrill | SideDrillDwell | SidePeck | SideTap | SideBore)
+        let drills = matches!(self, SideHole | SideDrill | SideDrillDwell | SidePeck);
+        let bores = matches!(self, SideBore | SideBoreStop | SideBoreDwell);
+        drills || bores || matches!(self, SideTap | SideTapLive | SideTapLiveLeft)
     }
 
     /// True for a pass of a lathe, which goes to its end and back in each block while it is in force.
@@ -127,8 +131,14 @@ impl Op {
                 | Op::CycleTapByLead
                 | Op::FaceTap
                 | Op::FaceTapMain
+                | Op::FaceTapMainLeft
                 | Op::SideTap
-        )
+        ) || self.is_live_tap()
+    }
+
+    /// True for a tap whose cycle turns a live tool by itself.
+    pub const fn is_live_tap(self) -> bool {
+        matches!(self, Op::FaceTapLive | Op::FaceTapLiveLeft | Op::SideTapLive | Op::SideTapLiveLeft)
     }
 
     /// True for what axis words beside it belong to: a place in a table, an origin, a centre or a factor, and no move.

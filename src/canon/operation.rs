@@ -265,8 +265,18 @@ super::vocabulary! {
         FaceTap = "hole.face.tap",
         /// Taps on the centre line with the spindle that turns the part.
         FaceTapMain = "hole.face.tap.main",
+        /// Taps a left-hand thread on the centre line with the spindle that turns the part.
+        FaceTapMainLeft = "hole.face.tap.main.left",
+        /// Taps along Z with a live tool, which the cycle turns by itself at the last speed.
+        FaceTapLive = "hole.face.tap.live",
+        /// Taps a left-hand thread along Z with a live tool, which the cycle turns by itself at the last speed.
+        FaceTapLiveLeft = "hole.face.tap.live.left",
         /// Bores along Z, feed out.
         FaceBore = "hole.face.bore",
+        /// Bores along Z: the spindle stops at the bottom, and the tool comes out by rapid.
+        FaceBoreStop = "hole.face.bore.stop",
+        /// Bores along Z with a wait at the bottom, feed out.
+        FaceBoreDwell = "hole.face.bore.dwell",
         /// Drills along X with a live tool: in pecks where its block has one, with a wait where one was told.
         SideHole = "hole.side",
         /// Drills along X, on a control with a code for each way.
@@ -277,8 +287,18 @@ super::vocabulary! {
         SidePeck = "hole.side.peck",
         /// Taps along X.
         SideTap = "hole.side.tap",
+        /// Taps along X with a live tool, which the cycle turns by itself at the last speed.
+        SideTapLive = "hole.side.tap.live",
+        /// Taps a left-hand thread along X with a live tool, which the cycle turns by itself at the last speed.
+        SideTapLiveLeft = "hole.side.tap.live.left",
         /// Bores along X, feed out.
         SideBore = "hole.side.bore",
+        /// Bores along X: the spindle stops at the bottom, and the tool comes out by rapid.
+        SideBoreStop = "hole.side.bore.stop",
+        /// Bores along X with a wait at the bottom, feed out.
+        SideBoreDwell = "hole.side.bore.dwell",
+        /// Makes the taps of the next cycle rigid: their feed follows the turns of the tool.
+        RigidTaps = "tap.rigid",
         /// Runs the drilling cycle in force at places round the circle whose centre is where the tool stands.
         HolesCircle = "holes.circle",
         /// The same at places on an arc, by an angle between them.

@@ -796,6 +796,17 @@ part.go(z=3.0)
 part.go(x=18.0)
 part.screw(24.0, -21.0, equal_chips(0.5, 0.0, 1.0), height=1.0, lead=2.0, side=INSIDE, taper=0.8)
 
+part = haas("g76-flanks",
+            "Both flanks in turn. P2: K1.5 D.4 A60, equal chips, settings 86 .05 and 99 .1, one finish pass. P4: a tapered bore, "
+            "I.8, A55, steps of .3 to .95, then the finish pass at 1.",
+            "86=0.05 95=0 96=45 99=0.1")
+part.go(24.0, 5.0)
+part.screw(17.0, -30.0, equal_chips(0.4, 0.1, 1.45) + [1.5], height=1.5, lead=2.5, angle=60.0, both=True)
+part.go(60.0)
+part.go(z=3.0)
+part.go(x=18.0)
+part.screw(24.0, -21.0, [0.3, 0.6, 0.9, 0.95, 1.0], height=1.0, lead=2.0, side=INSIDE, angle=55.0, taper=0.8, both=True)
+
 part = haas("g90-turn", "Straight passes, U, a taper by I-3. that the next block keeps.")
 part.go(52.0, 2.0)
 for x, z in ((46.0, -40.0), (42.0, -40.0), (52.0 - 18.0, -30.0)):

@@ -59,10 +59,18 @@ class Live(Lathe):
         self.drill("x", bottom, z=z, c=c, r=r, **more)
 
     def drill(self, axis, bottom, *, r, x=None, z=None, c=None, back=None, f=None, dwell=0.0, out="rapid", tap=False,
-              steps=(), chips=False, clear=1.0):
-        """A hole: steps are lengths of pecks, clear the clearance of a peck, real lengths (Q7)."""
+              hand=None, steps=(), chips=False, clear=1.0):
+        """A hole: steps are lengths of pecks, clear the clearance of a peck, real lengths (Q7).
+
+        hand: of a thread whose cycle turns the tool by itself (Q9). out "stop": the spindle stops at the bottom, and turns on
+        at the end.
+        """
         if f is not None:
             self.set_feed(f)
+        kept = (self.speed, self.mode)
+        if hand:
+            # A tap advances its lead with each turn (Q11).
+            self.speed, self.mode = self.speed * self.rpm, "per_minute"
         self.turn(c, x, z)
         self.rapid(**{axis: r})
         self._write("hole", self.now, number(self.place(**{axis: bottom})[0 if axis == "x" else 2]))
@@ -79,12 +87,30 @@ class Live(Lathe):
             self.spindle("clockwise" if before == "counter_clockwise" else "counter_clockwise")
             self.feed(**{axis: r})
             self.spindle(before)
+        elif hand:
+            ways = ("clockwise", "counter_clockwise") if hand == "right" else ("counter_clockwise", "clockwise")
+            self.spindle(ways[1])
+            self.feed(**{axis: r})
+            self.spindle(ways[0])
+            self.speed, self.mode = kept
+        elif out == "stop":
+            before = self.turning
+            self.turned("stopped")
+            self.rapid(**{axis: r})
+            self.rapid(**{axis: back})
+            self.turned(before)
+            return
         elif out == "feed":
             self.feed(**{axis: r})
         else:
             self.rapid(**{axis: r})
         if back is not None:
             self.rapid(**{axis: back})
+
+    def turned(self, way):
+        """The spindle turns so: said where it did not before."""
+        if self.turning != way:
+            self.spindle(way)
 
     @staticmethod
     def pecks(axis, bottom, r, steps, clear):
@@ -264,10 +290,9 @@ part.turn(z=1.0)
 part.face(-4.0, c=45, r=3.0)
 part.turn(z=30.0)
 
-part = Live("haas", "tap", "G84 on the centre line with feed a turn: in and out by the lead of 1.25, from Z8., plane Z3.")
-part.mode = "per_turn"
+part = Live("haas", "tap", "G84 on the centre line with feed a turn: in and out by the lead of 1.25, at 500 turns 625 a minute (Q11), from Z8., plane Z3.")
 part.turn(0, 0.0, 8.0)
-part.face(-15.0, r=3.0, back=8.0, f=1.25, out="feed")
+part.face(-15.0, r=3.0, back=8.0, f=1.25 * 500, out="feed")
 part.turn(z=40.0)
 
 part = Live("haas", "side",
@@ -280,3 +305,32 @@ part.side(36.0, z=-30.0, c=180, r=62.0, back=70.0, steps=[5.0] * 3)
 part.side(50.0, c=270, r=62.0, back=70.0, f=30.0, out="feed")
 part.side(56.0, z=-40.0, c=0, r=62.0, back=70.0, dwell=0.5)
 part.turn(x=100.0)
+
+part = Live("haas", "taps",
+            "F is the lead, S500 before. Into the face from Z6., plane Z3.: G95 at C0 and C180 of 40, left-handed by G186 at "
+            "C90 of 30. Into a side without R, from where the tool stands: G195 at X70., G196 after a move to X60. On the centre "
+            "line left-handed by G184. With the spindle on: G86 stops it at the bottom, out by rapid; G89 waits .3 s, out at feed. "
+            "G246 and G249 do the same into a side, R66. a diameter. M30 stops the spindle.", turns=True)
+part.mode = "per_turn"
+part.turn(0, 40.0, 6.0)
+part.spindle("stopped", 500.0)
+part.face(-10.0, r=3.0, back=6.0, f=1.25, hand="right")
+part.face(-10.0, c=180, r=3.0, back=6.0, hand="right")
+part.face(-8.0, x=30.0, c=90, r=3.0, back=6.0, f=1.0, hand="left")
+part.turn(x=70.0)
+part.turn(0, z=-15.0)
+part.side(44.0, r=70.0, f=1.25, hand="right")
+part.turn(x=60.0)
+part.side(50.0, z=-25.0, c=45, r=60.0, f=1.0, hand="left")
+part.turn(x=100.0)
+part.turn(0, 0.0, 6.0)
+part.face(-12.0, r=3.0, back=6.0, f=1.5, hand="left")
+part.turned("clockwise")
+part.face(-20.0, r=3.0, back=6.0, f=0.1, out="stop")
+part.face(-25.0, r=3.0, back=6.0, dwell=0.3, out="feed")
+part.turn(x=72.0)
+part.turn(z=-20.0)
+part.side(60.0, r=66.0, back=72.0, out="stop")
+part.side(58.0, z=-30.0, r=66.0, back=72.0, dwell=0.4, out="feed")
+part.turn(x=100.0)
+part.spindle("stopped")

@@ -145,12 +145,19 @@ class Lathe(Motion):
 
     # Threads in many passes.
 
-    def screw(self, x, z, heights, *, height, lead, side=OUTSIDE, angle=0.0, taper=0.0):
-        """P7, P8: a pass at each depth under the crest; x is the root at the thread's end."""
+    def screw(self, x, z, heights, *, height, lead, side=OUTSIDE, angle=0.0, taper=0.0, both=False):
+        """P7, P8: a pass at each depth under the crest; x is the root at the thread's end.
+
+        P6: both flanks in turn, the second pass along the other flank of the thread that is ready at full height.
+        """
         back = self.here()
         way = 1.0 if z > back[2] else -1.0
-        for depth in heights:
-            begin = back[2] + way * depth * math.tan(math.radians(angle / 2.0))
+        for at, depth in enumerate(heights):
+            flank = math.tan(math.radians(angle / 2.0))
+            begin = back[2] + way * depth * flank
+            if both and at % 2 == 1:
+                # The tip stands off the other flank by what is missing to the height, on the far side of the middle.
+                begin = back[2] + way * (height * flank + (height - depth) * flank)
             end = x + 2.0 * side * (height - depth)
             self.go(end + 2.0 * taper * (z - begin) / (z - back[2]), begin)
             self.thread(end, z, lead)

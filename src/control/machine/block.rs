@@ -86,6 +86,8 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         }
         Op::CheckInch if !machine.inch => return Err(Stop::unnamed("the control is set to metric")),
         Op::CheckMetric if machine.inch => return Err(Stop::unnamed("the control is set to inch")),
+        // Rigid or not, a tap goes the same way.
+        Op::RigidTaps => {}
         // These move, or are modes, or were done in their places.
         _ if op.group() != Group::OneShot || is_done_elsewhere(op) => {}
         // An M code of its own, which has its time.

@@ -142,7 +142,11 @@ impl Driver<'_> {
         let Planes { r, bottom, .. } = self.planes;
         // A tap by its lead follows the spindle; the feed in force is for the moves after the cycle.
         let in_force = (self.machine.feed, self.machine.feed_mode);
-        if let Some(lead) = cycle.lead {
+        let by_turn = self.machine.rules.lathe
+            && self.machine.feed_mode == FeedMode::PerTurn
+            && !self.machine.surface_speed;
+        let lead = cycle.lead.or(Some(self.machine.feed).filter(|_| by_turn && self.machine.speed > 0.0));
+        if let Some(lead) = lead {
             (self.machine.feed, self.machine.feed_mode) = (lead * self.machine.speed, FeedMode::PerMinute);
         }
         self.feed(bottom);

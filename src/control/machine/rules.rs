@@ -144,6 +144,8 @@ pub struct Rules {
     pub pecks_to_plane: Fact<Option<bool>>,
     /// A face is milled with C in words of X as a diameter and C as a length; else of X as a radius and Y; none where nobody says it (V1).
     pub face_by_c: Fact<Option<bool>>,
+    /// A thread that is cut on both flanks begins with the leading one; none where that is said to be unknown (P6).
+    pub leading_first: Fact<Option<bool>>,
     /// The settings of a lathe.
     pub turning: Turning,
 }
@@ -259,6 +261,16 @@ impl Rules {
                 control,
                 Question::PolarWords,
                 |value| ["x.c", "x.y"].contains(&value).then_some(Some(value == "x.c")),
+                None,
+            ),
+            leading_first: fact(
+                control,
+                Question::ThreadFlanks,
+                |value| {
+                    ["leading.first", "trailing.first"]
+                        .contains(&value)
+                        .then_some(Some(value == "leading.first"))
+                },
                 None,
             ),
             turning: Turning::new(control),

@@ -157,7 +157,7 @@ fn turned_by_cycle(nc: &Nc, stands: bool, before: &Modal) -> bool {
     let stopped = before.op(Group::Spindle) == Some(Op::SpindleStop);
     let stored = nc.word(Role::Repeat).and_then(Expr::constant) == Some(0.0);
     let drills = begun.is_some() || !moves && !nc.has(Op::CycleOff) && goes_somewhere(nc, Some(before));
-    drills && !stored && !says && (stands || stopped && op.is_tap())
+    drills && !stored && !says && (stands || stopped && op.is_tap()) && !op.is_live_tap()
 }
 
 /// True where a block of a drilling cycle has a position.

@@ -58,12 +58,16 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     false
 }
 
-/// How a shop says what a code of its machine does; none for what is more than a code.
+const LEADS: &str = "cut this thread on a machine that has the code. Threads of one lead each, block after block, only come near it: if that is \
+                     good enough for the part, write them into the source yourself";
+
+/// What a person can do: a shop says what a code of its machine does. None for what is more than a code.
 fn help(op: Op) -> Option<String> {
     let words = match op {
         Op::Dwell => ", the role of its word (words = { F = \"dwell.s\" }, in seconds, or \"dwell.ms\")",
         Op::OptionalStop => "",
         op if op.auxiliary().is_some() => "",
+        Op::ThreadVariable => return Some(LEADS.into()),
         _ => return None,
     };
     Some(format!(

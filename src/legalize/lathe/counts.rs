@@ -43,7 +43,7 @@ pub fn counts_here(features: &Features, context: &Context<'_>) -> bool {
 }
 
 /// True where the words of a role count increments.
-fn counted(control: &Control, role: Role) -> bool {
+pub(super) fn counted(control: &Control, role: Role) -> bool {
     control.dialect().codes.iter().any(|row| {
         let mut letters = row.words.iter().filter(|(_, found)| **found == role);
         row.preferred && letters.any(|(letter, _)| letter.chars().any(|l| row.counts.contains(&l)))

@@ -43,20 +43,28 @@ pub(super) fn replace(values: &mut Values, new: Values) {
     values.extend(new);
 }
 
-/// The words of the cycle's own block, and of the block before it.
-pub(super) fn resolve(
+/// All that a cycle takes besides its own words; if something of it is not told: what, and what to do.
+pub(super) fn told(
     stmt: &Stmt,
     kind: &'static Kind,
     before: Option<Values>,
     source: &Control,
-    target: &Control,
-) -> Result<Given, (String, String)> {
+) -> Result<Values, (String, String)> {
     let mut values = given(stmt, kind, before, source)?;
     if !thread_form::apart(&mut values) {
         let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
         return Err((what.into(), "write the number as it is: P021060".into()));
     }
     usual(&mut values);
+    Ok(values)
+}
+
+/// The words of the cycle's own block, and of the block before it.
+pub(super) fn resolve(
+    mut values: Values,
+    kind: &'static Kind,
+    target: &Control,
+) -> Result<Given, (String, String)> {
     let finishes = if takes(target, kind.setup, Role::ThreadForm) { 0 } else { more_finishes(&mut values) };
     let angle = constant(&values, Role::ThreadAngle).unwrap_or(0.0);
     if takes(target, kind.cycle, Role::ThreadInfeed)
@@ -84,7 +92,8 @@ fn more_finishes(values: &mut Values) -> usize {
     all as usize - usize::from(left)
 }
 
-fn constant(values: &Values, wanted: Role) -> Option<f64> {
+/// The number that a value is.
+pub(super) fn constant(values: &Values, wanted: Role) -> Option<f64> {
     values.iter().find(|(role, _)| *role == wanted).and_then(|(_, value)| value.constant())
 }
 

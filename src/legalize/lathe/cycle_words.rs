@@ -5,56 +5,84 @@
 //! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
 //! otherwise.
 
-use super::cycle_values::{Given, Values, replace, resolve, values_of};
+use super::cycle_values::{Given, Need, Values, replace, resolve, told, values_of};
 use super::place::Place;
+use super::roughing::drop_rough;
 use super::settings::{Kind, setting, takes};
-use super::spring_passes::passes;
 use super::straight::entered_straight;
+use super::thread_passes::{all, finishes, says_how};
+use super::threads::{beyond, flanks_are_open};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Units};
-use crate::ir::{Nc, NcItem, Program, Stmt, StmtKind, TermKind};
-use crate::legalize::Context;
+use crate::ir::{Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::{Context, Modal};
 use crate::text::Span;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// True if there are such cycles, and the target does not take the values from where the source does.
+/// True if there are such cycles, and the target does not take the values from where the source does, or from a setting that is another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let rough = features.role(Role::RoughX) || features.role(Role::RoughZ);
+    let apart = |kind: &Kind, role: Role| {
+        let stated = |control| setting(control, kind.cycle, role).and_then(|(_, value)| value);
+        stated(context.source).zip(stated(context.target)).is_some_and(|(ours, theirs)| ours != theirs)
+    };
     let differs = |kind: &Kind| {
         features.op(kind.cycle)
             && kind.roles.iter().any(|role| {
                 takes(context.source, kind.setup, *role) != takes(context.target, kind.setup, *role)
                     || takes(context.source, kind.cycle, *role) != takes(context.target, kind.cycle, *role)
+                    || apart(kind, *role)
             })
     };
     rough || super::settings::KINDS.iter().any(differs)
 }
 
-/// Gives each cycle its values in the target's form.
-pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
+/// Gives each cycle its values in the target's form, and writes out the threads for which it has none; gives the programs that this
+/// changed.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
+    let runs = |stmt: &Stmt| cycle_of(stmt).is_some() || setup_of(stmt).is_some();
+    let has = |program: &Program| program.blocks.iter().any(|block| block.stmts.iter().any(runs));
+    let with: Vec<usize> = (0..module.programs.len()).filter(|at| has(&module.programs[*at])).collect();
+    let facts = context.modal_facts(module);
+    for index in &with {
+        let program = &mut module.programs[*index];
+        let states = program.ids().map(|id| facts.at(*index, id)).collect();
+        each(program, states, *index, context);
+    }
+    with
+}
+
+fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut Context<'_>) {
     let straight = entered_straight(program);
     let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
-    let modal = context.features.has(Feature::Modal);
-    let (mut set, mut found) = (Vec::new(), Vec::new());
-    let mut changed = false;
-    for (block, straight) in program.blocks.iter_mut().zip(straight) {
+    let mut run = Run {
+        source: context.source,
+        target: context.target,
+        other_unit,
+        modal: context.features.has(Feature::Modal),
+        in_steps: context.features.op(Op::Incremental),
+        compensates: [Op::RadiusLeft, Op::RadiusRight].iter().any(|op| context.features.op(*op)),
+        set: Vec::new(),
+        place: Place::default(),
+        found: Vec::new(),
+        flanks: None,
+    };
+    for ((block, state), straight) in program.blocks.iter_mut().zip(states).zip(straight) {
         if !straight {
-            set.clear();
+            run.set.clear();
+            run.place.forget();
         }
-        if block.stmts.iter().any(|stmt| cycle_of(stmt).is_some() || setup_of(stmt).is_some()) {
-            changed = true;
-            let old = std::mem::take(&mut block.stmts);
-            let mut run =
-                Run { source: context.source, target: context.target, other_unit, modal, set, found };
-            block.stmts = run.block(old, matches!(block.term.kind, TermKind::End { .. })).into();
-            (set, found) = (run.set, run.found);
-        } else if block.stmts.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Comment)) {
-            set.iter_mut().for_each(Set::pass);
-        }
+        let old = std::mem::take(&mut block.stmts);
+        let ends = matches!(block.term.kind, TermKind::End { .. });
+        block.stmts = run.block(old.into_iter().collect(), state, ends).into();
+    }
+    let Run { mut found, flanks, .. } = run;
+    if let Some(span) = flanks {
+        flanks_are_open(index, span, context);
     }
     refuse_two_values(&mut found);
     for (span, what, help, needs) in found {
@@ -66,7 +94,6 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             None => context.add(index, finding),
         }
     }
-    changed
 }
 
 /// A setting cannot change while a program runs: what needs another value than a cycle before is refused.
@@ -124,35 +151,54 @@ struct Run<'c> {
     other_unit: bool,
     /// True where a macro may run after each move, and leave the tool elsewhere.
     modal: bool,
+    /// True where words of a place may be increments, by a mode.
+    in_steps: bool,
+    /// True where the nose radius is compensated somewhere.
+    compensates: bool,
     set: Vec<Set>,
+    place: Place,
     found: Found,
+    /// The first thread that is written out and cut on both flanks.
+    flanks: Option<Span>,
 }
 
 impl Run<'_> {
-    fn block(&mut self, old: impl IntoIterator<Item = Stmt>, ends: bool) -> Vec<Stmt> {
-        let mut new: Vec<Stmt> = Vec::new();
-        let mut old: VecDeque<Stmt> = old.into_iter().collect();
-        let mut place = Place::default();
-        while let Some(stmt) = old.pop_front() {
+    fn block(&mut self, old: Vec<Stmt>, mut state: Modal, ends: bool) -> Vec<Stmt> {
+        let mut new: Vec<Stmt> = Vec::with_capacity(old.len());
+        let mut old = old.into_iter();
+        while let Some(stmt) = old.next() {
+            let rapid = [(Group::Motion, Op::Rapid), (Group::Cycle, Op::CycleOff)];
+            let rapid = rapid.iter().all(|(group, op)| state.op(*group) == Some(*op));
+            state.step(&stmt);
             if let Some(kind) = setup_of(&stmt) {
                 new.extend(self.setup(kind, stmt));
                 continue;
             }
-            place.enter(&stmt);
-            place.step(&stmt);
+            self.place.enter(&stmt);
+            self.place.step(&stmt);
             if self.modal {
-                place = Place::default();
+                self.place.forget();
             }
-            if let Some(kind) = cycle_of(&stmt) {
-                let (made, more) = self.cycle(kind, stmt, place, (old.make_contiguous(), ends));
-                new.extend(made);
-                more.into_iter().rev().for_each(|pass| old.push_front(pass));
-            } else {
-                let comment = matches!(stmt.kind, StmtKind::Comment);
-                new.push(stmt);
-                if comment {
+            match cycle_of(&stmt) {
+                Some(kind) => {
+                    let bare = !self.compensates || state.op(Group::RadiusComp) == Some(Op::RadiusOff);
+                    let may = match rapid || says_how(old.as_slice(), ends) {
+                        _ if !bare => Err("the nose radius may be compensated"),
+                        true => Ok(()),
+                        false => Err("the next block moves by the code of before"),
+                    };
+                    let units = match state.op(Group::Units) {
+                        Some(Op::Inch) => Some(Units::Inch),
+                        Some(Op::Metric) => Some(Units::Metric),
+                        _ => self.source.units(),
+                    };
+                    new.extend(self.cycle(kind, stmt, units, may));
+                }
+                None if matches!(stmt.kind, StmtKind::Comment) => {
+                    new.push(stmt);
                     continue;
                 }
+                None => new.push(stmt),
             }
             self.set.iter_mut().for_each(Set::pass);
         }
@@ -204,30 +250,50 @@ impl Run<'_> {
         })
     }
 
-    /// The cycle with its words, after the block that sets the rest, if the target has one; and the passes that the target's
-    /// cycle does not make.
+    /// The cycle with its words, after the block that sets the rest, if the target has one, and before the passes that the target's cycle
+    /// does not make; or all passes of a thread that the target has no cycle for.
     fn cycle(
         &mut self,
         kind: &'static Kind,
         mut stmt: Stmt,
-        place: Place,
-        next: (&[Stmt], bool),
-    ) -> (Vec<Stmt>, Vec<Stmt>) {
+        units: Option<Units>,
+        may: Result<(), &'static str>,
+    ) -> Vec<Stmt> {
         let span = stmt.site.span;
         let set = self.set.iter().find(|set| set.setup == kind.setup);
         if set.is_some_and(Set::is_stale) {
             self.refuse(span, STALE, "write the block that sets it right before this one");
-            return (vec![stmt], Vec::new());
+            return vec![stmt];
         }
         let before = set.map(|set| set.values.clone());
-        let Given { words, setup, finishes, angle, needs } =
-            match resolve(&stmt, kind, before, self.source, self.target) {
-                Ok(given) => given,
-                Err((what, help)) => {
-                    self.refuse(span, &what, &help);
-                    return (vec![stmt], Vec::new());
-                }
-            };
+        let all = match told(&stmt, kind, before, self.source) {
+            Ok(values) => values,
+            Err((what, help)) => {
+                self.refuse(span, &what, &help);
+                return vec![stmt];
+            }
+        };
+        let threads = stmt.kind.nc().filter(|_| kind.cycle == Op::Threading);
+        let given = match threads.and_then(|nc| beyond(nc, &all, units, self.target)) {
+            Some((what, help)) => Err((what.into(), help.into())),
+            None => resolve(all.clone(), kind, self.target),
+        };
+        let elsewhere =
+            given.as_ref().is_ok_and(|given| given.needs.iter().any(|need| self.is_set_otherwise(need)));
+        let mut why = String::new();
+        if threads.is_some() && (given.is_err() || elsewhere) {
+            match may.and_then(|()| self.written_out(&stmt, &all, kind)) {
+                Ok(passes) => return passes,
+                Err(because) => why = format!("; its passes are not written out: {because}"),
+            }
+        }
+        let Given { words, setup, finishes: more, angle, needs } = match given {
+            Ok(given) => given,
+            Err((what, help)) => {
+                self.refuse(span, &format!("{what}{why}"), &help);
+                return vec![stmt];
+            }
+        };
         if self.other_unit && self.rests_on_length(kind, &setup) {
             self.refuse(
                 span,
@@ -236,9 +302,11 @@ impl Run<'_> {
             );
         }
         self.found.extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, Some(needs))));
-        let more =
-            if finishes > 0 { passes(&stmt, (angle, finishes), place, next) } else { Some(Vec::new()) };
-        if more.is_none() {
+        let passes = match more {
+            0 => Some(Vec::new()),
+            more => finishes(&stmt, (angle, more), self.place, self.target).filter(|_| may.is_ok()),
+        };
+        if passes.is_none() {
             self.refuse(span, FINISHES, FINISHES_HELP);
         }
         if let StmtKind::Nc(nc) = &mut stmt.kind {
@@ -248,7 +316,40 @@ impl Run<'_> {
         }
         let site = crate::ir::SourceInfo { span, ..Default::default() };
         let setup = (!setup.is_empty()).then(|| Stmt { kind: StmtKind::Nc(with(kind, setup)), site });
-        (setup.into_iter().chain([stmt]).collect(), more.unwrap_or_default())
+        setup.into_iter().chain([stmt]).chain(passes.unwrap_or_default()).collect()
+    }
+
+    /// True for a setting that is known to be another one on the target, or that a cycle before needs otherwise.
+    fn is_set_otherwise(&self, (.., needs): &Need) -> bool {
+        let Predicate::Setting(name, value) = needs else { return false };
+        let before = |(.., needs): &(Span, String, String, Option<Predicate>)| match needs {
+            Some(Predicate::Setting(other, before)) => other == name && before != value,
+            _ => false,
+        };
+        self.target.setting(name).is_some() || self.found.iter().any(before)
+    }
+
+    /// The passes of a thread, in place of its cycle; why there are none.
+    fn written_out(&mut self, stmt: &Stmt, values: &Values, kind: &Kind) -> Result<Vec<Stmt>, &'static str> {
+        if self.in_steps {
+            return Err("words of a place may be increments");
+        }
+        let by_setting = |role: &Role| role.is_length() && setting(self.source, kind.cycle, *role).is_some();
+        if self.other_unit && kind.roles.iter().any(by_setting) {
+            return Err(OTHER_UNIT);
+        }
+        let flanks = self.source.behaviour(Question::ThreadFlanks).map(|row| row.value.as_str());
+        let leading = match flanks {
+            Some("leading.first") => Some(true),
+            Some("trailing.first") => Some(false),
+            _ => None,
+        };
+        let passes = all(stmt, values, leading, self.place, self.target)?;
+        let infeed = values.iter().find(|(role, _)| *role == Role::ThreadInfeed);
+        if infeed.and_then(|(_, way)| way.constant()).is_some_and(|way| way % 2.0 == 0.0) {
+            self.flanks.get_or_insert(stmt.site.span);
+        }
+        Ok(passes)
     }
 
     fn refuse(&mut self, span: Span, what: &str, help: &str) {
@@ -265,19 +366,6 @@ fn names_other_unit(program: &Program, control: &Control) -> bool {
     };
     let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
     stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(other)))
-}
-
-/// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
-/// that the passes differ.
-fn drop_rough(nc: &mut Nc, source: &Control, target: &Control) {
-    let is_along =
-        |control: &Control| control.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
-    let along = is_along(target) && !is_along(source);
-    let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return };
-    let rough = |role: Role| matches!(role, Role::RoughX | Role::RoughZ) && !takes(target, op, role);
-    if along {
-        nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if rough(*role)));
-    }
 }
 
 const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \

@@ -23,7 +23,8 @@ fn acts(item: &NcItem) -> bool {
     match item {
         NcItem::Code(letter, _) => *letter == 'M',
         NcItem::Op(op) => {
-            op.auxiliary().is_some() || matches!(op, Op::Stop | Op::OptionalStop | Op::TurretIndex)
+            op.auxiliary().is_some()
+                || matches!(op, Op::Stop | Op::OptionalStop | Op::TurretIndex | Op::RigidTaps)
         }
         NcItem::Word(role, _) => matches!(role, Role::Turret),
     }

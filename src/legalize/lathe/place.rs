@@ -4,7 +4,7 @@
 //! from where it began; what a contour's words say counts inside it alone.
 
 use crate::canon::{Group, Op, Role};
-use crate::ir::{Expr, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::{Expr, Nc, NcItem, Place as Target, Stmt, StmtKind};
 
 /// What is known of it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -95,6 +95,10 @@ impl Place {
     pub fn step(&mut self, stmt: &Stmt) {
         match &stmt.kind {
             StmtKind::Nc(nc) => self.words(nc, stmt.site.skip.is_some()),
+            // What is written into a table may move the coordinates.
+            StmtKind::Assign { .. } if matches!(stmt.kind.target(), Some(Target::System(..))) => {
+                self.forget()
+            }
             StmtKind::Comment | StmtKind::Assign { .. } => {}
             _ => self.forget(),
         }

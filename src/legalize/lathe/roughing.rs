@@ -3,11 +3,12 @@
 //! Law: both leave the allowances on the contour, go as deep each pass, and come back to where they began. What differs is which passes there are:
 //! one control ends along the contour, the other level by level, which may leave steps for the finishing. A person must accept that.
 
+use super::settings::takes;
 use crate::assume::Predicate;
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
-use crate::ir::{Module, StmtKind};
+use crate::dialect::{Control, Question};
+use crate::ir::{Module, Nc, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
@@ -38,5 +39,18 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 .asked_once();
             context.add_once(index, &format!("{what} {op}"), told);
         }
+    }
+}
+
+/// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
+/// that the passes differ.
+pub(super) fn drop_rough(nc: &mut Nc, source: &Control, target: &Control) {
+    let is_along =
+        |control: &Control| control.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
+    let along = is_along(target) && !is_along(source);
+    let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return };
+    let rough = |role: Role| matches!(role, Role::RoughX | Role::RoughZ) && !takes(target, op, role);
+    if along {
+        nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if rough(*role)));
     }
 }

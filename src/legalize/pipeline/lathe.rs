@@ -6,7 +6,7 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes, interpolations,
-    lone_steps, rapid_in_force, roughing, steps, unit_agrees, written_corners, x_counts,
+    lone_steps, rapid_in_force, roughing, steps, tap_feeds, unit_agrees, written_corners, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -61,9 +61,16 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(hole_returns::concerns)
     .needs(&["steps", "hole-codes"]),
+    Pass::edits(
+        "tap-feeds",
+        "taps in feed a minute get their lead, where the target's take it",
+        tap_feeds::run,
+    )
+    .when(tap_feeds::concerns)
+    .needs(&["hole-returns"]),
     Pass::edits("holes", "drilling cycles of a lathe get the target's planes and codes", holes::run)
         .when(holes::concerns)
-        .needs(&["steps", "lathe-lengths", "hole-returns"]),
+        .needs(&["steps", "lathe-lengths", "hole-returns", "tap-feeds"]),
     Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
         .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
     Pass::each(
@@ -73,16 +80,16 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(lone_steps::concerns)
     .needs(&["steps", "holes"]),
-    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
-        .when(steps::letters_to_mode)
-        .needs(&["beside-moves", "holes"]),
-    Pass::each(
+    Pass::edits_some(
         "lathe-cycles",
-        "depths, ways back and forms of a lathe's cycles stand where the target takes them from",
+        "cycles of a lathe take their values where the target does; threads without one are moves",
         cycle_words::run,
     )
     .when(cycle_words::concerns)
-    .needs(&["lathe-lengths"]),
+    .needs(&["steps", "lathe-lengths"]),
+    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
+        .when(steps::letters_to_mode)
+        .needs(&["beside-moves", "holes", "lathe-cycles"]),
     Pass::edits(
         "lathe-counts",
         "pecks and depths of a lathe's cycles count where the target counts",

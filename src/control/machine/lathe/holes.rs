@@ -5,7 +5,7 @@ use crate::canon::{Op, Role};
 use crate::control::machine::cycle::{Cycle, across};
 use crate::control::machine::{Command, Machine, expand};
 use crate::control::outcome::Stop;
-use crate::control::trace::Trace;
+use crate::control::trace::{FeedMode, Spindle, Trace};
 
 /// The axes that holes go along, as places in a position.
 const ALONG_X: usize = 0;
@@ -56,13 +56,20 @@ fn check(machine: &Machine, command: &Command, op: Op) -> Result<(), Stop> {
     }
     let beside = |op: &Op| {
         op.auxiliary().is_some()
-            || matches!(op, Op::Stop | Op::OptionalStop | Op::Builder | Op::Act | Op::MachineSpecific)
+            || matches!(op, Op::Stop | Op::OptionalStop | Op::Builder | Op::MachineSpecific | Op::RigidTaps)
+            || *op == Op::Act
     };
     if command.ops.iter().any(beside) || command.word(Role::Turret).is_some() {
         return refused("an M code or a tool word in a drilling block");
     }
     if machine.cycle().is_some_and(|before| before.is_side_hole() != op.is_side_hole()) {
         return refused("a drilling cycle along one axis while one along the other is in force");
+    }
+    if op.is_live_tap() && machine.feed_mode != FeedMode::PerTurn {
+        return refused("a tap of a live tool while F is a feed a minute");
+    }
+    if op.is_live_tap() && machine.speed <= 0.0 {
+        return refused("a tap of a live tool without a speed");
     }
     if command.number(Role::Repeat) == Some(0) {
         return refused("a drilling cycle with no repeats");
@@ -96,7 +103,15 @@ fn read(machine: &mut Machine, command: &Command, (along, begins): (usize, bool)
     let lasts = matches!(cycle.op, Op::FacePeck | Op::SidePeck);
     cycle.peck = peck.or(cycle.peck.filter(|_| lasts));
     // On a control whose P lasts across codes a cycle without one takes the last (S10).
-    let told = matches!(cycle.op, Op::FaceDrillDwell | Op::FacePeck | Op::SideDrillDwell | Op::SidePeck);
+    let told = matches!(
+        cycle.op,
+        Op::FaceDrillDwell
+            | Op::FacePeck
+            | Op::FaceBoreDwell
+            | Op::SideDrillDwell
+            | Op::SidePeck
+            | Op::SideBoreDwell
+    );
     let last = machine.lathe.last_dwell.filter(|_| begins && told).unwrap_or(cycle.dwell);
     cycle.dwell = command.word(Role::CycleDwell).map_or(last, |ms| ms / 1000.0);
     machine.lathe.last_dwell =
@@ -114,6 +129,10 @@ fn hole(machine: &mut Machine, along: usize, trace: &mut Trace) -> Result<(), St
     if machine.lathe.hole_by_mode.is_some_and(|by_mode| by_mode != machine.incremental) {
         machine.rules.planes_frozen.ask(trace);
     }
+    if cycle.op.is_live_tap() {
+        // The tool stands until the cycle turns it.
+        machine.spindle = Spindle::Stopped;
+    }
     cycle.op = way(machine, &cycle, trace)?;
     cycle.clear = Some(machine.peck_clearance / machine.real(along));
     let told_as_place = cycle.r.is_some_and(|(_, by_step)| !by_step);
@@ -129,8 +148,11 @@ fn hole(machine: &mut Machine, along: usize, trace: &mut Trace) -> Result<(), St
 fn way(machine: &Machine, cycle: &Cycle, trace: &mut Trace) -> Result<Op, Stop> {
     let peck = cycle.peck.is_some_and(|peck| peck != 0.0);
     Ok(match cycle.op {
-        Op::FaceTap | Op::FaceTapMain | Op::SideTap => Op::CycleTap,
+        Op::FaceTap | Op::FaceTapMain | Op::FaceTapLive | Op::SideTap | Op::SideTapLive => Op::CycleTap,
+        Op::FaceTapMainLeft | Op::FaceTapLiveLeft | Op::SideTapLiveLeft => Op::CycleTapLeft,
         Op::FaceBore | Op::SideBore => Op::CycleBore,
+        Op::FaceBoreDwell | Op::SideBoreDwell => Op::CycleBoreDwell,
+        Op::FaceBoreStop | Op::SideBoreStop => Op::CycleBoreStop,
         Op::FacePeck | Op::SidePeck if !peck => {
             return Err(Stop::unnamed("a drilling cycle in pecks without a peck"));
         }

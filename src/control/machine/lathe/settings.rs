@@ -34,6 +34,8 @@ pub struct Turning {
     pub thread_allowance: Option<f64>,
     pub run_out: Option<f64>,
     pub run_out_angle: Option<f64>,
+    /// The angles that threads of many passes may have, degrees; none where all are taken (P3).
+    pub thread_angles: Option<Vec<f64>>,
     /// True where the machine's profile names a C axis.
     pub has_c: bool,
 }
@@ -82,6 +84,9 @@ impl Turning {
             thread_allowance: length(Role::ThreadAllowance, &[Op::Threading]),
             run_out: given(Role::ThreadRunOut, &[Op::Threading]),
             run_out_angle: told("thread.run.out.angle"),
+            thread_angles: answer(Question::ThreadAngles)
+                .filter(|list| !["any", "unknown"].contains(list))
+                .map(|list| list.split('.').filter_map(|angle| angle.parse().ok()).collect()),
             has_c: control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&Axis::C)),
         }
     }

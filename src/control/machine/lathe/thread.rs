@@ -7,9 +7,6 @@ use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, Position, Trace};
 
-/// The angles between flanks that the controls with two blocks take.
-const ANGLES: [f64; 6] = [0.0, 29.0, 30.0, 55.0, 60.0, 80.0];
-
 /// The turns of a thread.
 pub struct Lead {
     pub lead: f64,
@@ -119,6 +116,8 @@ struct Screw {
     taper: f64,
     /// True where each pass is deeper by the same.
     even: bool,
+    /// Where the passes take both flanks in turn: whether the first one takes the leading one.
+    both: Option<bool>,
 }
 
 /// Cuts a thread in many passes.
@@ -143,8 +142,9 @@ pub fn many(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resu
     let lead = Lead { lead, start: command.word(Role::ThreadStart).unwrap_or(0.0), change: 0.0, chamfer };
     trace.doubt("machine:lathe.thread.passes");
     trace.rounded = machine.off_by() + 4.0 * machine.most_off(command, |_| true);
-    for depth in depths(&screw)? {
-        pass(machine, (a, e), &screw, depth, &lead, trace)?;
+    for (at, depth) in depths(&screw)?.into_iter().enumerate() {
+        let far = screw.both.is_some_and(|leading| (at % 2 == 1) == leading);
+        pass(machine, (a, e), &screw, (depth, far), &lead, trace)?;
         if trace.is_full() {
             break;
         }
@@ -154,17 +154,18 @@ pub fn many(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resu
     Ok(())
 }
 
-/// P8.
+/// P6 to P8: a pass of a depth, along the far flank or the near one.
 fn pass(
     machine: &mut Machine,
     (a, e): (Point, Point),
     screw: &Screw,
-    depth: f64,
+    (depth, far): (f64, bool),
     lead: &Lead,
     trace: &mut Trace,
 ) -> Result<(), Stop> {
     let (sx, sz) = (sense(e[0] - a[0]), sense(e[1] - a[1]));
-    let z = a[1] + sz * depth * (screw.angle / 2.0).to_radians().tan();
+    let along = if far { 2.0 * screw.height - depth } else { depth };
+    let z = a[1] + sz * along * (screw.angle / 2.0).to_radians().tan();
     let x = e[0] - sx * (screw.height - depth);
     let part = if (e[1] - a[1]).abs() <= EXACT { 0.0 } else { (e[1] - z) / (e[1] - a[1]) };
     machine.rapid_way(Some(x + screw.taper * part), Some(z), trace);
@@ -213,7 +214,7 @@ fn by_two_blocks(machine: &Machine, command: &Command) -> Result<Screw, Stop> {
         form.allowance.or(turning.thread_allowance).ok_or_else(|| unset("finishing allowance"))?;
     let (height, first) = (length(Role::ThreadHeight), length(Role::ThreadFirst));
     let angle = digits % 100.0;
-    if !ANGLES.contains(&angle) {
+    if turning.thread_angles.as_ref().is_some_and(|angles| !angles.contains(&angle)) {
         return Err(alarm("PS0315", "an angle that no thread of this control has"));
     }
     if height <= 0.0 || first <= 0.0 {
@@ -227,7 +228,8 @@ fn by_two_blocks(machine: &Machine, command: &Command) -> Result<Screw, Stop> {
         return Err(Stop::unnamed("a thread without a finishing pass"));
     }
     let taper = length(Role::Taper);
-    Ok(Screw { height, first, least, allowance, finishes: finishes as u32, angle, taper, even: false })
+    let finishes = finishes as u32;
+    Ok(Screw { height, first, least, allowance, finishes, angle, taper, even: false, both: None })
 }
 
 /// P2, P3, P6.
@@ -240,11 +242,13 @@ fn by_one_block(machine: &Machine, command: &Command, trace: &mut Trace) -> Resu
         trace.doubt("machine:lathe.thread.infeed");
     }
     let way = way.unwrap_or(1.0);
-    if way != 1.0 && way != 3.0 {
-        return Err(Stop::unnamed(format!(
-            "a thread cut by P{way}: in which order the flanks are cut is not known"
-        )));
-    }
+    let both = match way {
+        1.0 | 3.0 => None,
+        2.0 | 4.0 => Some(machine.rules.leading_first.ask(trace).ok_or_else(|| {
+            Stop::unnamed(format!("a thread cut by P{way}: in which order the flanks are cut is not known"))
+        })?),
+        _ => return Err(Stop::unnamed(format!("a thread cut by P{way}: there are four ways"))),
+    };
     let angle = command.word(Role::ThreadAngle).unwrap_or(0.0);
     if !(0.0..=120.0).contains(&angle) {
         return Err(Stop::unnamed("the angle of the thread is not from 0 to 120 degrees"));
@@ -265,7 +269,8 @@ fn by_one_block(machine: &Machine, command: &Command, trace: &mut Trace) -> Resu
         finishes: u32::from(allowance > 0.0),
         angle,
         taper: length(Role::Taper),
-        even: way == 3.0,
+        even: way > 2.0,
+        both,
     })
 }
 
@@ -286,7 +291,17 @@ mod tests {
     use super::{Screw, depths};
 
     fn screw(first: f64, height: f64, allowance: f64, least: f64) -> Screw {
-        Screw { height, first, least, allowance, finishes: 2, angle: 60.0, taper: 0.0, even: false }
+        Screw {
+            height,
+            first,
+            least,
+            allowance,
+            finishes: 2,
+            angle: 60.0,
+            taper: 0.0,
+            even: false,
+            both: None,
+        }
     }
 
     #[test]

@@ -138,6 +138,8 @@ fn code(hole: &mut Hole<'_>) -> Result<(), Refused> {
                 Op::FaceDrill
             }
         }
+        (Op::FaceBore, _, true) if hole.has(Op::FaceBoreDwell) => Op::FaceBoreDwell,
+        (Op::SideBore, _, true) if hole.has(Op::SideBoreDwell) => Op::SideBoreDwell,
         (_, _, true) => return Err((NO_WAIT, "leave P out, or write the hole as moves")),
         (Op::FaceTap | Op::SideTap, ..) => tap(hole)?,
         (op, ..) => op,
@@ -174,7 +176,7 @@ fn again(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     Ok(())
 }
 
-/// A tap: only on the centre line, where the target has a code for the main spindle.
+/// A tap: on the centre line with the target's main spindle, elsewhere with a live tool.
 fn tap(hole: &mut Hole<'_>) -> Result<Op, Refused> {
     let turned = hole.nc.word(Role::C).or(hole.nc.word(Role::StepC)).is_some();
     let x = match (hole.nc.word(Role::X), hole.nc.word(Role::StepX)) {
@@ -182,11 +184,36 @@ fn tap(hole: &mut Hole<'_>) -> Result<Op, Refused> {
         (None, None) => hole.place.x(),
         _ => None,
     };
-    if hole.side() || turned || x != Some(0.0) || !hole.has(Op::FaceTapMain) {
+    let live = matches!(hole.cycle.written, Some(Op::FaceTapLive | Op::SideTapLive));
+    if hole.side() || turned || x != Some(0.0) || live {
+        return live_tap(hole);
+    }
+    if !hole.has(Op::FaceTapMain) {
         return Err((TAP, TAP_HELP));
     }
-    hole.asked.push((MAIN, MAIN_HELP, Op::FaceTap));
+    hole.asked.push((MAIN, MAIN_HELP, Op::FaceTap, true));
     Ok(Op::FaceTapMain)
+}
+
+/// A tap whose cycle turns the live tool by itself, to the right, at the last speed, and whose F is the lead.
+fn live_tap(hole: &mut Hole<'_>) -> Result<Op, Refused> {
+    let op = if hole.side() { Op::SideTapLive } else { Op::FaceTapLive };
+    if !hole.has(op) {
+        return Err((TAP, TAP_HELP));
+    }
+    if !hole.turning.by_turn {
+        return Err((BY_MINUTE, BY_MINUTE_HELP));
+    }
+    if hole.turning.speed.is_none() {
+        return Err((NO_SPEED, NO_SPEED_HELP));
+    }
+    if hole.cycle.written != Some(op) {
+        if !hole.turning.stands {
+            return Err((TURNS, TURNS_HELP));
+        }
+        hole.asked.push((LIVE, LIVE_HELP, op, false));
+    }
+    Ok(op)
 }
 
 /// How often the block runs: the target has no repeats.
@@ -209,9 +236,19 @@ const BELOW_HELP: &str = "begin the cycle at the retract plane or beyond it";
 const WAIT: &str = "which wait of an earlier hole is still in force here depends on the path";
 const WAIT_HELP: &str = "write P into this block";
 const NO_WAIT: &str = "the target's code for this hole takes no wait at the bottom";
-const TAP: &str = "a tap off the centre line, or by C, turns by a live tool: which code of the target that is depends on the direction of the live \
-                   tool, which the block does not say";
+const TAP: &str = "the target has no code for this tap";
 const TAP_HELP: &str = "write the tap for the target by hand";
+const BY_MINUTE: &str = "a tap of a live tool while F is a feed a minute, or nobody knows: the target's cycle takes F as the lead";
+const BY_MINUTE_HELP: &str = "write S and F as numbers before the tap, and G80 after its holes; or tap in feed a turn, with the lead as F";
+const NO_SPEED: &str =
+    "the target's tap turns its live tool at the last S, and which speed that is, is not known here";
+const NO_SPEED_HELP: &str =
+    "write S in a block before the tap, also where a code of the builder turns the tool";
+const TURNS: &str = "the spindle may turn here (M3, M4), which on the target is the one that turns the part, while a live tool taps";
+const TURNS_HELP: &str =
+    "write M5 before the tap, and turn the live tool by the code of the builder that does only that";
+const LIVE: &str = "this tap becomes the target's cycle for a live tool, which turns the tool to the right by itself, at the last S";
+const LIVE_HELP: &str = "make sure that the thread is a right-hand one, and that S is the speed of the tool";
 const MAIN: &str = "the target taps on the centre line with its main spindle, which it starts itself";
 const MAIN_HELP: &str = "if a live tool taps here, write the target's code for that by hand";
 const REPEAT: &str = "a drilling cycle with a count of repeats that is computed, or is none of 1 to 200: the target has no repeats";

@@ -2,7 +2,7 @@
 
 use super::walk::{Hole, Refused};
 use crate::canon::{Op, Role};
-use crate::ir::{Expr, NcItem};
+use crate::ir::{Expr, Nc, NcItem};
 
 /// Gives a block the target's words and code; how often it runs.
 pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
@@ -20,12 +20,57 @@ pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
     }
     match hole.op {
         Op::FaceTapMain => {
+            end_wait(hole);
             hole.write_if_begun(Op::FaceTap);
         }
-        Op::FaceBore | Op::SideBore => {}
+        Op::FaceTapLive | Op::SideTapLive => live_tap(hole)?,
+        Op::FaceTapMainLeft | Op::FaceTapLiveLeft | Op::SideTapLiveLeft => return Err((LEFT, LEFT_HELP)),
+        Op::FaceBoreStop | Op::SideBoreStop => return Err((STOPS, STOPS_HELP)),
+        Op::FaceBoreDwell | Op::SideBoreDwell => {
+            if hole.begins && hole.nc.word(Role::CycleDwell).is_none() {
+                return Err((WAIT, "write P into this block"));
+            }
+            hole.write_if_begun(if hole.side() { Op::SideBore } else { Op::FaceBore });
+        }
+        Op::FaceBore | Op::SideBore => end_wait(hole),
         op => drill(hole, op)?,
     }
     Ok(1)
+}
+
+/// A tap of a live tool: the code before it makes it rigid, and turns the tool at the speed beside it.
+fn live_tap(hole: &mut Hole<'_>) -> Result<(), Refused> {
+    let op = if hole.side() { Op::SideTap } else { Op::FaceTap };
+    if !hole.has(op) || !hole.has(Op::RigidTaps) {
+        return Err((TAP, "write the tap for the target by hand"));
+    }
+    if !hole.turning.by_turn {
+        return Err((BY_MINUTE, "write G99 before it, with the lead as F"));
+    }
+    if !hole.begins {
+        return Ok(());
+    }
+    end_wait(hole);
+    let speed = hole.turning.speed.ok_or((NO_SPEED, "write S in a block before the tap"))?;
+    let rigid = vec![NcItem::Op(Op::RigidTaps), NcItem::Word(Role::Speed, Expr::Number(speed))];
+    hole.before.push(Nc { items: rigid });
+    hole.write(op);
+    hole.asked.push((LIVE, LIVE_HELP, op, false));
+    Ok(())
+}
+
+/// A wait that an earlier code of the cycle in force was told is none of a code that has none.
+fn end_wait(hole: &mut Hole<'_>) {
+    if !hole.fresh {
+        no_wait(hole);
+    }
+}
+
+/// A wait that an earlier code was told is none of this one.
+fn no_wait(hole: &mut Hole<'_>) {
+    if hole.begins && hole.nc.word(Role::CycleDwell).is_none() && !hole.all.dwells.is_empty() {
+        hole.nc.items.push(NcItem::Word(Role::CycleDwell, Expr::Number(0.0)));
+    }
 }
 
 /// The retract plane as a way.
@@ -34,6 +79,11 @@ fn plane(hole: &mut Hole<'_>) -> Result<(), Refused> {
         hole.cycle.initial = hole.level();
     }
     let Some(place) = hole.nc.word(Role::CycleR).cloned() else {
+        // A tap along X is written without one: it begins at its plane.
+        if hole.fresh && hole.side() && hole.op.is_live_tap() {
+            hole.cycle.plane = hole.cycle.initial;
+            return Ok(());
+        }
         return if hole.fresh { Err((NO_PLANE, "write R into the block of the cycle")) } else { Ok(()) };
     };
     let (Some(initial), Some(place)) = (hole.cycle.initial, place.constant()) else {
@@ -56,10 +106,7 @@ fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
         if waits || pecks && earlier {
             return Err((WAIT, "write P into this block"));
         }
-        // A wait that an earlier code was told is none of this one.
-        if !hole.all.dwells.is_empty() {
-            hole.nc.items.push(NcItem::Word(Role::CycleDwell, Expr::Number(0.0)));
-        }
+        no_wait(hole);
     }
     if pecks {
         let own = hole.nc.word(Role::CycleQ).cloned();
@@ -90,6 +137,17 @@ impl Hole<'_> {
     }
 }
 
+const TAP: &str = "the target has no code for this tap, or none that makes it rigid";
+const BY_MINUTE: &str = "a tap of a live tool while F is a feed a minute, or nobody knows: no source says what the source's cycle does with it";
+const NO_SPEED: &str =
+    "the source's tap turns its live tool at the last S, and which speed that is, is not known here";
+const LIVE: &str = "this tap of a live tool becomes a rigid tap, which turns the tool that codes of the target's builder have chosen";
+const LIVE_HELP: &str =
+    "make sure that the live tool is chosen before it, and that the code for rigid taps is the machine's";
+const LEFT: &str = "a left-hand tap: no source says how the target is told one";
+const LEFT_HELP: &str = "write it for the target by hand";
+const STOPS: &str = "a bore whose spindle stops at the bottom: the target has no such cycle";
+const STOPS_HELP: &str = "write the bore as moves: feed in, M5, rapid out, M3";
 const DEPTH: &str = "no source says what an increment of the depth counts from on the source";
 const BELOW: &str = "this drilling cycle begins between its retract plane and the bottom: it ends at the plane, and on the target where it began";
 const NO_PLANE: &str = "a drilling cycle without R: no source says which retract plane it has";

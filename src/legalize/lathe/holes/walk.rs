@@ -15,8 +15,19 @@ use std::collections::BTreeMap;
 /// Why a hole is refused, and what to do.
 pub(super) type Refused = (&'static str, &'static str);
 
-/// What the target does otherwise, to be asked once.
-pub(super) type Asked = (&'static str, &'static str, Op);
+/// What the target does otherwise: what, what to do, the operation, and whether it is asked once for all programs.
+pub(super) type Asked = (&'static str, &'static str, Op, bool);
+
+/// What turns, and how the feed counts, where a block drills.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Turning {
+    /// The last speed, if that is a known number.
+    pub speed: Option<f64>,
+    /// True where F is a feed a turn.
+    pub by_turn: bool,
+    /// True where the spindle is known to stand, or nothing of the library ever turns it.
+    pub stands: bool,
+}
 
 /// What is known of the cycle in force.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +57,8 @@ pub(super) struct All {
     pub without_peck: bool,
     /// True where a letter that lasts across codes as the wait may have been told by another code.
     pub other_waits: bool,
+    /// True where nothing of the library turns the spindle.
+    pub stands: bool,
 }
 
 /// A block that drills.
@@ -62,7 +75,10 @@ pub(super) struct Hole<'h> {
     pub cycle: &'h mut Cycle,
     pub all: &'h All,
     pub target: &'h Control,
+    pub turning: Turning,
     pub asked: Vec<Asked>,
+    /// Blocks that go before it.
+    pub before: Vec<Nc>,
 }
 
 impl Hole<'_> {
@@ -111,27 +127,34 @@ impl Hole<'_> {
 pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool) {
     let facts = context.modal_facts(module);
     let other_waits = other_waits(&context.features, by_steps);
+    let turns = |op| context.features.op(op);
+    let stands = !turns(Op::SpindleCw) && !turns(Op::SpindleCcw) && !context.features.has(Feature::Code);
     let mut found: Vec<(usize, Diagnostic)> = Vec::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
-        let all = All { other_waits, ..all(program, &states) };
+        let all = All { other_waits, stands, ..all(program, &states) };
         let straight = entered_straight(program);
-        let mut walk = Walk { cycle: Cycle::default(), place: Place::keeping_level() };
+        let mut walk = Walk { cycle: Cycle::default(), place: Place::keeping_level(), speed: None };
         for ((block, mut state), straight) in program.blocks.iter_mut().zip(states).zip(straight) {
             if !straight {
                 walk.cycle = Cycle::default();
                 walk.place.forget();
+                walk.speed = None;
             }
             let mut out = Stmts::with_capacity(block.stmts.len());
-            for stmt in std::mem::take(&mut block.stmts) {
+            for mut stmt in std::mem::take(&mut block.stmts) {
                 let span = stmt.site.span;
+                if !by_steps {
+                    drop_rigid(&mut stmt, context.target);
+                }
                 match walk.stmt(&stmt, &mut state, (&all, context.target, by_steps)) {
                     None => out.push(stmt),
                     Some(Ok((made, asked))) => {
                         out.extend(made);
-                        found.extend(asked.into_iter().map(|(what, help, op)| {
+                        found.extend(asked.into_iter().map(|(what, help, op, once)| {
                             let told = Diagnostic::new(Code::Conditional, span, what).with_help(help);
-                            (index, told.assuming(Predicate::Substitute(op)).asked_once())
+                            let told = told.assuming(Predicate::Substitute(op));
+                            (index, if once { told.asked_once() } else { told })
                         }));
                     }
                     Some(Err((what, help))) => {
@@ -146,6 +169,18 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     for (index, diagnostic) in found {
         let fact = format!("{} {:?}", diagnostic.message, diagnostic.span);
         context.add_once(index, &fact, diagnostic);
+    }
+}
+
+/// Takes away what makes taps rigid, for a target whose taps always are; the speed beside it stays.
+fn drop_rigid(stmt: &mut Stmt, target: &Control) {
+    if !stmt.kind.has_op(Op::RigidTaps) || target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some() {
+        return;
+    }
+    let StmtKind::Nc(nc) = &mut stmt.kind else { return };
+    nc.items.retain(|item| *item != NcItem::Op(Op::RigidTaps));
+    if nc.items.is_empty() {
+        stmt.kind = StmtKind::Comment;
     }
 }
 
@@ -188,6 +223,8 @@ fn all(program: &Program, states: &[Modal]) -> All {
 struct Walk {
     cycle: Cycle,
     place: Place,
+    /// The last speed.
+    speed: Option<f64>,
 }
 
 /// What becomes of a block that drills, and what is asked.
@@ -201,7 +238,7 @@ impl Walk {
         state: &mut Modal,
         (all, target, by_steps): (&All, &Control, bool),
     ) -> Option<Made> {
-        let before = state.op(Group::Cycle);
+        let (before, spindle) = (state.op(Group::Cycle), state.op(Group::Spindle));
         state.step(stmt);
         self.place.enter(stmt);
         let place = self.place;
@@ -211,9 +248,13 @@ impl Walk {
             StmtKind::Comment | StmtKind::Assign { .. } => return None,
             _ => {
                 self.cycle = Cycle::default();
+                self.speed = None;
                 return None;
             }
         };
+        if let Some(speed) = nc.word(Role::Speed) {
+            self.speed = speed.constant().filter(|_| stmt.site.skip.is_none());
+        }
         let op = drills(nc, state)?;
         let begins = nc.ops().any(Op::is_hole);
         if stmt.site.skip.is_some() {
@@ -223,6 +264,12 @@ impl Walk {
             )));
         }
         let fresh = before == Some(Op::CycleOff);
+        let surface = state.op(Group::SpeedMode) == Some(Op::SurfaceSpeed);
+        let turning = Turning {
+            speed: self.speed.filter(|speed| *speed > 0.0 && !surface),
+            by_turn: state.op(Group::FeedMode) == Some(Op::FeedPerTurn),
+            stands: all.stands || spindle == Some(Op::SpindleStop),
+        };
         if before.is_none() {
             return Some(Err((UNKNOWN, "write G80, or G0 and a place, before the cycle")));
         }
@@ -238,19 +285,23 @@ impl Walk {
             cycle: &mut self.cycle,
             all,
             target,
+            turning,
             asked: Vec::new(),
+            before: Vec::new(),
         };
         let done = if by_steps { by_step::change(&mut hole) } else { by_place::change(&mut hole) };
         let times = match done {
             Ok(times) => times,
             Err(refused) => return Some(Err(refused)),
         };
-        let (nc, asked) = (hole.nc, hole.asked);
+        let (nc, asked, lead) = (hole.nc, hole.asked, hole.before);
         let again = Nc { items: nc.items.iter().filter(|item| says_again(item)).cloned().collect() };
         let first = Stmt { kind: StmtKind::Nc(nc), site: stmt.site.clone() };
         let site = crate::ir::SourceInfo { span: stmt.site.span, ..Default::default() };
-        let more = Stmt { kind: StmtKind::Nc(again), site };
-        Some(Ok((std::iter::once(first).chain(std::iter::repeat_n(more, times - 1)).collect(), asked)))
+        let more = Stmt { kind: StmtKind::Nc(again), site: site.clone() };
+        let lead = lead.into_iter().map(|nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() });
+        let made = lead.chain([first]).chain(std::iter::repeat_n(more, times - 1));
+        Some(Ok((made.collect(), asked)))
     }
 }
 

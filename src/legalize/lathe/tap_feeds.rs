@@ -1,0 +1,172 @@
+//! Taps of a lathe in feed a minute, where the target's take the lead.
+//!
+//! Law: a tap that feeds f a minute at S turns advances f / S each turn, so it is the same in feed a turn with that as F. Side conditions: S and F
+//! are known numbers before the cycle, the lead has six decimals, and the block that ends the cycle follows on every way: it gets the feed of
+//! before again. Counter-example: a jump out of the cycle. What is left in feed a minute `holes` refuses for a live tool.
+
+use super::straight::entered_straight;
+use crate::canon::{Group, Op, Role};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
+use std::collections::BTreeMap;
+
+/// True where a library taps, and the target's taps take the lead.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let has = |op| context.target.code_for(op, &BTreeMap::new()).is_some();
+    features.any_op(is_tap) && has(Op::FaceTapLive) && !has(Op::FaceTap)
+}
+
+fn is_tap(op: Op) -> bool {
+    matches!(op, Op::FaceTap | Op::SideTap)
+}
+
+/// Gives taps their lead.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let facts = context.modal_facts(module);
+    let mut changed = false;
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
+        let found = taps(program, &states);
+        changed |= !found.is_empty();
+        for Tap { at, lead, end, feed } in found {
+            if let Some(nc) = words(program, at) {
+                say(nc, Op::FeedPerTurn, lead);
+            }
+            if let Some(nc) = end.and_then(|end| words(program, end)) {
+                end_with(nc, feed);
+            }
+        }
+    }
+    changed
+}
+
+/// A place: a block, and a statement in it.
+type At = (usize, usize);
+
+/// A cycle of taps: where it begins, its lead, the block that ends it if one does, and the feed a minute.
+struct Tap {
+    at: At,
+    lead: f64,
+    end: Option<At>,
+    feed: f64,
+}
+
+/// The cycles of taps whose lead is known.
+fn taps(program: &Program, states: &[Modal]) -> Vec<Tap> {
+    let straight = entered_straight(program);
+    let (mut found, mut speed) = (Vec::new(), None);
+    for (number, (block, state)) in program.blocks.iter().zip(states).enumerate() {
+        let mut state = state.clone();
+        if !straight[number] {
+            speed = None;
+        }
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            let before = state.op(Group::Cycle);
+            state.step(stmt);
+            let Some(nc) = stmt.kind.nc() else {
+                speed = speed.filter(|_| is_quiet(stmt));
+                continue;
+            };
+            if let Some(value) = nc.word(Role::Speed) {
+                speed = value.constant().filter(|_| stmt.site.skip.is_none());
+            }
+            let begins = before == Some(Op::CycleOff) && stmt.site.skip.is_none() && nc.ops().any(is_tap);
+            let surface = state.op(Group::SpeedMode) == Some(Op::SurfaceSpeed);
+            if !begins || surface || state.op(Group::FeedMode) != Some(Op::FeedPerMinute) {
+                continue;
+            }
+            let feed = nc.word(Role::Feed).map_or(state.feed(), Expr::constant);
+            let end = end((number, at), &state, program, &straight);
+            if let (Some(feed), Some(speed), Some(end)) = (feed, speed.filter(|speed| *speed > 0.0), end)
+                && let Some(lead) = lead(feed, speed)
+            {
+                found.push(Tap { at: (number, at), lead, end, feed });
+            }
+        }
+    }
+    found
+}
+
+/// The lead, if it has no more than six decimals.
+fn lead(feed: f64, speed: f64) -> Option<f64> {
+    let lead = (feed / speed * 1e6).round() / 1e6;
+    (lead > 0.0 && (lead * speed - feed).abs() < 1e-9 * feed).then_some(lead)
+}
+
+/// The block that ends a cycle which begins at a place, none in the inner value where the program ends first; none where a way leads
+/// elsewhere, or something counts the feed before.
+fn end((number, at): At, state: &Modal, program: &Program, straight: &[bool]) -> Option<Option<At>> {
+    let mut state = state.clone();
+    for (block, stmts) in program.blocks.iter().enumerate().skip(number) {
+        if block > number && !*straight.get(block)? {
+            return None;
+        }
+        let first = if block == number { at + 1 } else { 0 };
+        for (place, stmt) in stmts.stmts.iter().enumerate().skip(first) {
+            let Some(nc) = stmt.kind.nc() else {
+                if !is_quiet(stmt) {
+                    return None;
+                }
+                continue;
+            };
+            state.step(stmt);
+            if stmt.site.skip.is_some() {
+                return None;
+            }
+            if !state.op(Group::Cycle).is_some_and(is_tap) {
+                return Some(Some((block, place)));
+            }
+            let counts = |item: &NcItem| match item {
+                NcItem::Op(op) => op.group() == Group::FeedMode,
+                NcItem::Word(role, _) => matches!(role, Role::Feed | Role::Speed),
+                NcItem::Code(..) => true,
+            };
+            if nc.items.iter().any(counts) {
+                return None;
+            }
+        }
+        match stmts.term.kind {
+            TermKind::End { .. } => return Some(None),
+            TermKind::Jump(to) if to == BlockId(block as u32 + 1) => {}
+            _ => return None,
+        }
+    }
+    None
+}
+
+/// True for what changes neither the feed nor the cycle.
+fn is_quiet(stmt: &Stmt) -> bool {
+    matches!(stmt.kind, StmtKind::Comment | StmtKind::Assign { .. })
+}
+
+fn words(program: &mut Program, (block, at): At) -> Option<&mut Nc> {
+    match &mut program.blocks.get_mut(block)?.stmts.get_mut(at)?.kind {
+        StmtKind::Nc(nc) => Some(nc),
+        _ => None,
+    }
+}
+
+/// Puts a mode of the feed and a feed into a block, in the place of those that it has.
+fn say(nc: &mut Nc, mode: Op, feed: f64) {
+    let other = |item: &NcItem| match item {
+        NcItem::Op(op) => op.group() == Group::FeedMode,
+        NcItem::Word(role, _) => *role == Role::Feed,
+        NcItem::Code(..) => false,
+    };
+    nc.items.retain(|item| !other(item));
+    nc.items.insert(0, NcItem::Op(mode));
+    nc.items.push(NcItem::Word(Role::Feed, Expr::Number(feed)));
+}
+
+/// Brings the feed a minute back, but for what the block says itself.
+fn end_with(nc: &mut Nc, feed: f64) {
+    if nc.ops().any(|op| op.group() == Group::FeedMode) {
+        return;
+    }
+    let own = nc.word(Role::Feed).cloned();
+    say(nc, Op::FeedPerMinute, feed);
+    if let (Some(own), Some(NcItem::Word(_, value))) = (own, nc.items.last_mut()) {
+        *value = own;
+    }
+}
