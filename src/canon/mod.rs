@@ -10,16 +10,19 @@
 mod acts;
 mod auxiliary;
 mod function;
+mod group;
 mod kinds;
 mod operation;
 mod pause;
 mod role;
+mod role_kinds;
 mod state;
 
 pub use acts::Act;
 pub use auxiliary::Auxiliary;
 pub use function::Func;
-pub use operation::{Group, Op};
+pub use group::Group;
+pub use operation::Op;
 pub use pause::{Pause, Running};
 pub use role::Role;
 pub use state::Sys;
