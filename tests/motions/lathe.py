@@ -104,6 +104,18 @@ stepped(part, 0.0, 0.0, (0.15, 0.08))
 part.go(64.0, 2.0)
 part.go(100.0, 50.0)
 
+part = fanuc("g71-one-block", "The stepped shaft by the older form in one block: D is the depth of a pass, in thousandths without a "
+             "point, and parameter 5133 how far it goes back.",
+             settings='[parameters]\n"0001.1" = 1\n5133 = 0.5')
+part.go(64.0, 2.0)
+part.set_feed(0.3)
+part.go(64.4, 2.1)
+part.along([(x + 0.4, SHAFT_ENDS[x] + 0.1) for x in sorted(SHAFT_ENDS, reverse=True)], level=2.1, e=0.5)
+part.go(x=20.4)
+stepped(part, 0.4, 0.1)
+part.go(64.0, 2.0)
+part.go(100.0, 50.0)
+
 # A bore: 50 to Z-10, cone to 40 at Z-20, 40 to Z-30, corner of 5 to the step 30 at Z-35, 30 to Z-45, face down to 18.
 BORE_ENDS = {22.0: -45.0, 26.0: -45.0, 30.0: -45.0, 34.0: -30.0 - leg(5.0, 2.0), 38.0: -33.0, 42.0: -18.0, 46.0: -14.0}
 

@@ -148,14 +148,19 @@ fn not_set(source: &Control, kind: &Kind, role: Role) -> (String, String) {
 }
 
 fn of_setting(control: &Control, name: &str, role: Role) -> (String, String) {
-    let number = name.trim_start_matches("setting.");
+    let (kind, number) = setting_named(name);
     let title = &control.dialect().title;
     let what =
-        format!("setting {number} of the {title} says {}, and its profile does not give it", meaning(role));
+        format!("{kind} {number} of the {title} says {}, and its profile does not give it", meaning(role));
     (
         what,
-        format!("look it up on the machine, and write in its profile, under [settings]: {number} = \"...\""),
+        format!("look it up on the machine, and write in its profile, under [{kind}s]: {number} = \"...\""),
     )
+}
+
+/// A setting as people name it, `setting` or `parameter`, and its number.
+pub(super) fn setting_named(name: &str) -> (&str, &str) {
+    name.split_once('.').unwrap_or(("setting", name))
 }
 
 fn meaning(role: Role) -> String {
@@ -214,9 +219,9 @@ fn in_setting(
     let Some((name, stated)) = setting(target, kind.cycle, role) else {
         return Err((format!("the target has no word for {} here", meaning(role)), String::new()));
     };
-    let number = name.trim_start_matches("setting.");
+    let (kind, number) = setting_named(name);
     let Some(value) = value.constant() else {
-        let what = format!("{} is computed, and the target takes it from setting {number}", meaning(role));
+        let what = format!("{} is computed, and the target takes it from {kind} {number}", meaning(role));
         return Err((what, "write it as a number".into()));
     };
     if stated.is_some_and(|stated| (value - stated).abs() < 1e-9) {
@@ -226,11 +231,11 @@ fn in_setting(
         stated.map_or("its profile does not give it".into(), |stated| format!("its profile says {stated}"));
     let title = &target.dialect().title;
     let what = format!(
-        "setting {number} of the {title} must be {value} while this program runs ({}); {now}",
+        "{kind} {number} of the {title} must be {value} while this program runs ({}); {now}",
         meaning(role)
     );
     let help = format!(
-        "set it so before the program is run; if the machine is always set so, write in its profile, under [settings]: {number} = \"{value}\""
+        "set it so before the program is run; if the machine is always set so, write in its profile, under [{kind}s]: {number} = \"{value}\""
     );
     Ok(Some((what, help, Predicate::Setting(name.into(), value))))
 }

@@ -5,7 +5,7 @@
 //! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
 //! otherwise.
 
-use super::cycle_values::{Given, Need, Values, replace, resolve, told, values_of};
+use super::cycle_values::{Given, Need, Values, replace, resolve, setting_named, told, values_of};
 use super::place::Place;
 use super::roughing::drop_rough;
 use super::settings::{Kind, setting, takes};
@@ -103,9 +103,9 @@ fn refuse_two_values(found: &mut Found) {
         let Some(Predicate::Setting(name, value)) = needs else { continue };
         let first = *values.entry(name.clone()).or_insert(*value);
         if first.to_bits() != value.to_bits() {
-            let number = name.trim_start_matches("setting.");
+            let (kind, number) = setting_named(name);
             *what = format!(
-                "setting {number} must be {value} here, and {first} for a cycle before: a program cannot change it"
+                "{kind} {number} must be {value} here, and {first} for a cycle before: a program cannot change it"
             );
             *help = "give both cycles the same value, or make two programs of them".into();
             *needs = None;

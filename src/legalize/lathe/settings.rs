@@ -63,7 +63,15 @@ pub fn takes(control: &Control, op: Op, role: Role) -> bool {
 
 /// The setting that stands for a word of an operation, by name, and its number where the profile says it.
 pub fn setting(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f64>)> {
-    let gives = |row: &&crate::dialect::Setting| row.gives == Some(role) && row.cycles.contains(&op);
+    let written = || {
+        let setup = Kind::of_cycle(op).is_some_and(|kind| takes(control, kind.setup, role));
+        setup || takes(control, op, role)
+    };
+    // What stands in for a word that is left out is all there is where the control has no word.
+    let gives = |row: &&crate::dialect::Setting| {
+        let stands = row.gives == Some(role) || (row.otherwise == Some(role) && !written());
+        stands && row.cycles.contains(&op)
+    };
     let row = control.dialect().settings.iter().find(gives)?;
     Some((&row.name, control.setting(&row.name).and_then(|value| value.parse().ok())))
 }
