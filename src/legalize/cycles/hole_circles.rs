@@ -128,7 +128,7 @@ fn holes(
     let (Some(radius), Some(count)) = (radius, count) else {
         return Err("it has no radius or no number of holes");
     };
-    if count < 1.0 || count > MOST || count.fract() != 0.0 {
+    if !(1.0..=MOST).contains(&count) || count.fract() != 0.0 {
         return Err("the number of holes is none");
     }
     let step = match step {
