@@ -27,7 +27,9 @@ pub struct Waiting {
 /// Takes a block that waits, or that others wait for. False for any other: it is done as it stands.
 pub fn takes(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<bool, Stop> {
     let first = machine.lathe.waiting.is_empty();
-    if first && !command.words.iter().any(|(role, _)| role.is_drawn()) {
+    // What mills a face or a side refuses such words itself.
+    let mills = machine.lathe.surface.is_some();
+    if first && (mills || !command.words.iter().any(|(role, _)| role.is_drawn())) {
         return Ok(false);
     }
     let told = command.of(Group::Motion);
