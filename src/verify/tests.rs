@@ -16,6 +16,7 @@ mod settled;
 mod skips;
 mod started;
 mod steered;
+mod stops;
 
 use super::{Assumptions, Effort, Job, Outcome, ProgramCertificate, Side, Spent, SymbolMap, Why, verify};
 use crate::assume::Assumption;

@@ -279,7 +279,7 @@ fn the_lines_to_fill_in_are_of_their_profile() {
         ),
         (
             "haas-st.toml",
-            &["codes = \"G18 G20 G54 G0 G99\"", "73 = 0.05", "95 = 1", "99 = 0.001", "162 = 0", "22 = 0.05"],
+            &["codes = \"G18 G20 G54 G0 G99\"", "287 = 0.05", "95 = 1", "99 = 0.001", "162 = 0", "22 = 0.05"],
         ),
     ] {
         let text = std::fs::read_to_string(repository(&format!("machines/{name}"))).unwrap();

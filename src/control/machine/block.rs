@@ -118,6 +118,8 @@ fn is_done_elsewhere(op: Op) -> bool {
                 | PolarOn
                 | PolarOff
                 | CycleHere
+                | HolesCircle
+                | HolesArc
                 | TurretIndex
                 | Stop
                 | OptionalStop

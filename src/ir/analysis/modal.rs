@@ -225,7 +225,9 @@ impl Modal {
 
     /// A tap turns the spindle, also one that stands, and may leave it turning.
     fn step_tap(&mut self, nc: &Nc) {
-        let taps = self.op(Group::Cycle).is_some_and(Op::is_tap) && (nc.moves() || nc.ops().any(Op::is_tap));
+        // A live tool is none of the spindle's.
+        let turns_it = |op: Op| op.is_tap() && !op.is_live_tap();
+        let taps = self.op(Group::Cycle).is_some_and(turns_it) && (nc.moves() || nc.ops().any(turns_it));
         let turns = |op| matches!(op, Op::SpindleCw | Op::SpindleCcw);
         if taps && self.op(Group::Spindle).is_some_and(|op| !turns(op)) {
             self.settings[Group::Spindle as usize] = Setting::Unknown;

@@ -4,7 +4,7 @@
 //! cycle's planes may be used in the other mode of coordinates than they were given in. The conversion takes both
 //! controls to do the same then. Where no source says what one of them does, a person has to look.
 
-use crate::canon::{Func, Group, Op, Role};
+use crate::canon::{Func, Group, Op, Pause, Role, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side, matters};
 use crate::ir::analysis::Cfg;
@@ -29,19 +29,20 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let cycles = context.features.any_op(Op::is_cycle);
     let starts =
         context.source.is(Question::CycleStartsSpindle) && !context.target.is(Question::CycleStartsSpindle);
+    let standing = Standing::of(context.source);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     for (index, program) in module.programs.iter().enumerate() {
-        let standing = (cycles && starts).then(|| solve(&Standing, program, &Cfg::of(program)));
+        let stood = (cycles && starts).then(|| solve(&standing, program, &Cfg::of(program)));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
-            let mut stands =
-                standing.as_ref().and_then(|standing| standing.at(id)).is_some_and(|stands| *stands);
+            let mut stands = stood.as_ref().and_then(|stood| stood.at(id)).is_some_and(|stands| *stands);
             for stmt in &block.stmts {
                 let span = stmt.site.span;
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
                 if let Some(place) = stmt.kind.target() {
                     value(&place.read(), index, span, context);
                 }
+                stands = standing.after(&stmt.kind, stands);
                 if let StmtKind::Nc(nc) = &stmt.kind {
                     if let Some(state) = &state
                         && mixes(nc, state)
@@ -49,7 +50,6 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         both(context, index, span, Question::CyclePlanesFrozen);
                     }
                     arc(nc, index, span, context);
-                    stands = stands_after(nc, stands);
                     if let Some(state) = state.as_ref().filter(|_| starts)
                         && turned_by_cycle(nc, stands, state)
                     {
@@ -125,8 +125,13 @@ fn stored_place(context: &mut Context<'_>, index: usize, span: Span) {
 const STANDS: &str = "the spindle stands here, and the source's drilling cycle starts it by itself; the target's does not: write M3 or \
      M4 before the cycle";
 
-/// Whether a tool change has stopped the spindle on some way to a place.
-struct Standing;
+/// Whether a tool change, an orientation or a stop has ended the turning of the spindle on some way to a place.
+struct Standing {
+    /// True where a stop of the program ends it.
+    by_stop: bool,
+    /// True where a stop with a message does.
+    by_message: bool,
+}
 
 impl Analysis for Standing {
     type State = bool;
@@ -137,15 +142,29 @@ impl Analysis for Standing {
     }
 
     fn block(&self, _: BlockId, block: &Block, stands: &mut bool) {
-        let ncs = block.stmts.iter().filter_map(|stmt| stmt.kind.nc());
-        ncs.for_each(|nc| *stands = stands_after(nc, *stands));
+        block.stmts.iter().for_each(|stmt| *stands = self.after(&stmt.kind, *stands));
     }
 }
 
-/// True where a tool change has stopped the spindle, and nothing has said since what it does.
-fn stands_after(nc: &Nc, stands: bool) -> bool {
-    let says = nc.ops().any(|op| op.group() == Group::Spindle);
-    (stands || nc.has(Op::ToolChange)) && !says
+impl Standing {
+    fn of(source: &Control) -> Self {
+        let ends = |pause| source.ends(pause, Running::Spindle).answer == Some(true);
+        Self { by_stop: ends(Pause::Stop), by_message: ends(Pause::Message) }
+    }
+
+    /// True where the spindle was brought to a stand, and nothing has said since what it does.
+    fn after(&self, kind: &StmtKind, stands: bool) -> bool {
+        match kind {
+            StmtKind::Nc(nc) => {
+                let says = nc.ops().any(|op| op.group() == Group::Spindle && op != Op::SpindleOrient);
+                let pauses = nc.has(Op::Stop) || nc.has(Op::OptionalStop);
+                let ends = nc.has(Op::ToolChange) || nc.has(Op::SpindleOrient) || self.by_stop && pauses;
+                (stands || ends) && !says
+            }
+            StmtKind::StopMessage { .. } => stands || self.by_message,
+            _ => stands,
+        }
+    }
 }
 
 /// True where a block drills, or taps, and finds the spindle standing.

@@ -28,6 +28,10 @@ fn is_pattern(op: Op) -> bool {
 /// Writes the places out, and refuses what cannot be; true where any were written.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
+    context.count(module);
+    // Machines begin in the plane of X and Y.
+    let other = |op: Op| op.group() == Group::Plane && op != Op::PlaneXy;
+    let flat = !context.features.any_op(other);
     let mut changed = false;
     for index in 0..module.programs.len() {
         if !context.may_concern(index, concerns) {
@@ -46,7 +50,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 }
                 changed = true;
                 let units = context.source.units();
-                match holes(&stmt, &state, place, units) {
+                match holes(&stmt, &state, place, (units, flat)) {
                     Ok(holes) => {
                         place = Place(holes.last().copied().map_or(place.0, |last| last.map(Some)));
                         out.extend(written(&stmt, &holes));
@@ -106,7 +110,7 @@ fn holes(
     stmt: &Stmt,
     state: &Modal,
     place: Place,
-    units: Option<Units>,
+    (units, flat): (Option<Units>, bool),
 ) -> Result<Vec<[f64; 2]>, &'static str> {
     let StmtKind::Nc(nc) = &stmt.kind else { return Ok(Vec::new()) };
     let own = |item: &NcItem| match item {
@@ -141,7 +145,8 @@ fn holes(
         Some(_) => return Err("no drilling cycle is in force"),
         None => return Err("it is not known here which drilling cycle is in force"),
     }
-    if state.op(Group::Plane) != Some(Op::PlaneXy) || state.op(Group::Distance) != Some(Op::Absolute) {
+    let plane = state.op(Group::Plane).or(flat.then_some(Op::PlaneXy));
+    if plane != Some(Op::PlaneXy) || state.op(Group::Distance) != Some(Op::Absolute) {
         return Err("it is not known here that G17 and G90 are in force");
     }
     if state.may_call() {

@@ -25,7 +25,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             if !nc.ops().any(Op::reads_contour) {
                 continue;
             }
-            if let Err(what) = check(program, nc) {
+            if let Err(what) = check(program, nc, context.target.text().sequence_max) {
                 // The pass runs twice.
                 let fact = format!("{what} {:?}", stmt.site.span);
                 context.add_once(index, &fact, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
@@ -34,7 +34,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-fn check(program: &Program, nc: &Nc) -> Result<(), String> {
+/// `most` is the last sequence number of the target.
+fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
     let number = |role: Role| {
         let value = nc.word(role).and_then(|value| value.constant());
         value.filter(|value| *value > 0.0).map(|value| value as u32)
@@ -42,6 +43,11 @@ fn check(program: &Program, nc: &Nc) -> Result<(), String> {
     let (Some(first), Some(last)) = (number(Role::ContourFirst), number(Role::ContourLast)) else {
         return Err("the cycle does not say as numbers with which block its contour begins and ends".into());
     };
+    if let Some(number) = [first, last].into_iter().find(|number| *number > most) {
+        return Err(format!(
+            "the target's sequence numbers end at {most}, and N{number} begins or ends a contour: give its blocks lower numbers"
+        ));
+    }
     let from = find(program, first)?;
     let to = find(program, last)?;
     if from > to {

@@ -302,9 +302,14 @@ impl Run<'_> {
             );
         }
         self.found.extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, Some(needs))));
+        // No source says by which way a pass in moves would run out.
+        let runs_out =
+            all.iter().any(|(role, value)| *role == Role::ThreadRunOut && value.constant() != Some(0.0));
         let passes = match more {
             0 => Some(Vec::new()),
-            more => finishes(&stmt, (angle, more), self.place, self.target).filter(|_| may.is_ok()),
+            more => {
+                finishes(&stmt, (angle, more), self.place, self.target).filter(|_| may.is_ok() && !runs_out)
+            }
         };
         if passes.is_none() {
             self.refuse(span, FINISHES, FINISHES_HELP);

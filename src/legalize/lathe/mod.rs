@@ -23,7 +23,7 @@ pub mod straight;
 pub mod tap_feeds;
 pub mod thread_form;
 pub mod thread_passes;
-mod threads;
+pub mod threads;
 pub mod unit_agrees;
 pub mod written_corners;
 pub mod x_counts;

@@ -137,6 +137,13 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let before = place;
                 place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                // The reader has refused a place and an increment of one axis.
+                if Role::STEPS
+                    .iter()
+                    .any(|(whole, step)| nc.word(*whole).is_some() && nc.word(*step).is_some())
+                {
+                    continue;
+                }
                 // The radius of a cylinder is no increment, and its block takes no other code.
                 if nc.has(Op::Cylinder) && mode != Some(Op::Absolute) {
                     ahead.push((

@@ -6,7 +6,7 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes, interpolations,
-    lone_steps, rapid_in_force, roughing, steps, tap_feeds, unit_agrees, written_corners, x_counts,
+    lone_steps, rapid_in_force, roughing, steps, tap_feeds, threads, unit_agrees, written_corners, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -71,6 +71,8 @@ pub(super) const LATHE: &[Pass] = &[
     Pass::edits("holes", "drilling cycles of a lathe get the target's planes and codes", holes::run)
         .when(holes::concerns)
         .needs(&["steps", "lathe-lengths", "hole-returns", "tap-feeds"]),
+    Pass::reports("thread-ends", "checks by what single passes of threads run out", threads::run_outs)
+        .when(|c, _| c.op(Op::ThreadingPass)),
     Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
         .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
     Pass::each(

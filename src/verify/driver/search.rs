@@ -119,6 +119,13 @@ impl Verifier<'_, '_> {
             self.steer(there, &found, starts);
         }
         self.theirs.clear();
+        // Both stop alike, and what stands after that was never looked at.
+        if let Some(alarm) = self.stopped.take().filter(|_| self.compared > 0 && self.telling.is_empty()) {
+            let text = format!(
+                "every run stops with an alarm of the control ({alarm}): what comes after is not compared"
+            );
+            self.because(Why::SourceAlarms, &text);
+        }
         if self.compared == 0 {
             for text in std::mem::take(&mut self.endless) {
                 self.because(Why::Endless, &text);

@@ -58,6 +58,8 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) edits: Vec<Edit>,
     /// What came to no end on both sides, the same as far as it went.
     pub(super) endless: BTreeSet<String>,
+    /// The first alarm by which the control itself stopped a run of the source.
+    pub(super) stopped: Option<String>,
     pub(super) sensitive: Option<bool>,
     pub(super) witness: Option<Witness>,
     /// Where the witness was.
@@ -103,6 +105,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             steps: 0,
             edits: Vec::new(),
             endless: BTreeSet::new(),
+            stopped: None,
             sensitive: None,
             witness: None,
             shown: Shown::default(),

@@ -2,7 +2,7 @@
 
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{BareLength, CodeMeaning, Question};
+use crate::dialect::{BareLength, CodeMeaning, Machine, Question};
 use crate::ir::{BinOp, Expr};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::expressions::{At, is_constant};
@@ -72,6 +72,13 @@ impl<'a> Lowering<'a> {
     fn bare_feed(&mut self, number: f64, span: Span) -> Expr {
         let counts = self.control.bare_feed();
         let open = self.control.feed_is_open();
+        // A turn and a minute count in other parts, a hundred times apart: too much to take as written.
+        if self.control.machine() == Machine::Lathe && (open || counts == BareLength::Unknown) {
+            let message = "no source says what a feed of this lathe counts without a decimal point: write the point, or say \
+                           'bare_feed' under [settings] of the machine's profile";
+            self.findings.not_understood(span, message);
+            return Expr::Number(number);
+        }
         if open && counts != BareLength::Unknown {
             let note = "the sources say it of lengths without a decimal point, not of feeds";
             self.findings.unconfirmed(BARE_FEED.into(), Some(note), span);
