@@ -55,6 +55,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
                         stands = false;
+                    } else if let Some(state) = state.as_ref().filter(|_| starts)
+                        && taps_unseen(nc, state)
+                    {
+                        context.add_once(
+                            index,
+                            MAY_STAND,
+                            Diagnostic::new(Code::Conditional, span, MAY_STAND),
+                        );
                     }
                     if nc.word(Role::Repeat).is_some_and(|count| count.constant().is_none_or(|n| n < 1.0)) {
                         context.must_agree(index, span, Question::CycleL0Stores);
@@ -165,6 +173,15 @@ impl Standing {
             _ => stands,
         }
     }
+}
+
+const MAY_STAND: &str = "it is not known here that the spindle turns, and the source's tap starts it by itself; the target's does not: \
+     write M3 or M4 before it";
+
+/// True where a block begins a tap, and nothing has said whether the spindle turns.
+fn taps_unseen(nc: &Nc, before: &Modal) -> bool {
+    let says = nc.ops().any(|op| op.group() == Group::Spindle);
+    !says && before.op(Group::Spindle).is_none() && nc.ops().any(|op| op.is_tap() && !op.is_live_tap())
 }
 
 /// True where a block drills, or taps, and finds the spindle standing.

@@ -79,6 +79,10 @@ struct Place([Option<f64>; 2]);
 impl Place {
     /// Takes a statement's effect; `after` is what is in force after it.
     fn step(&mut self, stmt: &Stmt, after: &Modal) {
+        // A shift may be written there.
+        if !matches!(stmt.kind.target(), None | Some(crate::ir::Place::Var(_))) {
+            *self = Self::default();
+        }
         let Some(nc) = stmt.kind.nc() else { return };
         let counts_anew = |op: Op| matches!(op.group(), Group::WorkOffset | Group::Units | Group::Plane);
         let rest: Vec<NcItem> = nc

@@ -24,7 +24,8 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let along = context.target.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
     let what = if along {
-        "the target ends this roughing with a pass along the contour, which the source has only with I or K"
+        "the target ends this roughing with a pass along the contour, which the source has only with I or K, and takes no I and K: \
+         without them the levels lie otherwise"
     } else {
         "the target is not known to end this roughing with a pass along the contour, as the source does: steps may be left for \
          the finishing tool, up to the depth of a pass"
