@@ -255,6 +255,10 @@ impl Walk {
         if let Some(speed) = nc.word(Role::Speed) {
             self.speed = speed.constant().filter(|_| stmt.site.skip.is_none());
         }
+        let counts = self.cycle.dwell.is_some() || before.is_some_and(waits);
+        if nc.has(Op::Dwell) && counts && before.is_some_and(Op::is_hole) {
+            return Some(Err((WAITS, "end the cycle before the wait, and write it again after it")));
+        }
         let op = drills(nc, state)?;
         let begins = nc.ops().any(Op::is_hole);
         if stmt.site.skip.is_some() {
@@ -305,10 +309,25 @@ impl Walk {
     }
 }
 
+/// True for a cycle that waits at the bottom by a P of its own code.
+fn waits(op: Op) -> bool {
+    matches!(
+        op,
+        Op::FaceDrillDwell
+            | Op::FacePeck
+            | Op::FaceBoreDwell
+            | Op::SideDrillDwell
+            | Op::SidePeck
+            | Op::SideBoreDwell
+    )
+}
+
 /// True for what each repeat of a hole is told: its place.
 fn says_again(item: &NcItem) -> bool {
     matches!(item, NcItem::Word(role, _) if role.is_axis())
 }
 
 const SKIPPED: &str = "a block skip before a drilling block: what lasts from it is not known after it";
+const WAITS: &str =
+    "a G4 in a drilling cycle that waits: on one of the two controls its P is the wait of the next hole too";
 const UNKNOWN: &str = "whether a drilling cycle is in force before this one is not known";
