@@ -136,6 +136,12 @@ impl Op {
         ) || self.is_live_tap()
     }
 
+    /// True for a drilling cycle of a lathe whose own code takes the wait at the bottom.
+    pub const fn is_waiting_hole(self) -> bool {
+        use Op::*;
+        matches!(self, FaceDrillDwell | FacePeck | FaceBoreDwell | SideDrillDwell | SidePeck | SideBoreDwell)
+    }
+
     /// True for a tap whose cycle turns a live tool by itself.
     pub const fn is_live_tap(self) -> bool {
         matches!(self, Op::FaceTapLive | Op::FaceTapLiveLeft | Op::SideTapLive | Op::SideTapLiveLeft)

@@ -118,6 +118,16 @@ impl Stop {
         Self { no_label: true, ..Self::alarm(number, text) }
     }
 
+    /// True where the control stops by itself: the program raised no alarm, and no jump of it found its block missing.
+    pub fn is_of_control(&self) -> bool {
+        self.program_number.is_none() && !self.no_label
+    }
+
+    /// Its number and what is the matter, as people are told.
+    pub fn told(&self) -> String {
+        format!("{} {}", self.number, self.text).trim().to_owned()
+    }
+
     /// An alarm that the sources do not name.
     pub fn unnamed(text: impl Into<String>) -> Self {
         Self::alarm("", text)

@@ -88,17 +88,22 @@ def stepped(part, u, w, feeds=(None, None)):
     part.cut(z=-50.0 + w)
 
 
+def roughed(part):
+    """The stepped shaft in passes of 2.5 with .4 (diameter) and .1 left, and the pass along it."""
+    part.go(64.0, 2.0)
+    part.set_feed(0.3)
+    part.go(64.4, 2.1)
+    part.along([(x + 0.4, SHAFT_ENDS[x] + 0.1) for x in sorted(SHAFT_ENDS, reverse=True)], level=2.1, e=0.5)
+    part.go(x=20.4)
+    stepped(part, 0.4, 0.1)
+    part.go(64.0, 2.0)
+
+
 part = fanuc("g71-outside",
              "A stepped shaft with a fillet and a round: passes of 2.5 from 64 with .4 (diameter) and .1 left, "
              "eight levels, the pass along the shape, and G70 at the profile's own feeds .15 and .08. G71 roughs at "
              ".3.")
-part.go(64.0, 2.0)
-part.set_feed(0.3)
-part.go(64.4, 2.1)
-part.along([(x + 0.4, SHAFT_ENDS[x] + 0.1) for x in sorted(SHAFT_ENDS, reverse=True)], level=2.1, e=0.5)
-part.go(x=20.4)
-stepped(part, 0.4, 0.1)
-part.go(64.0, 2.0)
+roughed(part)
 part.go(x=20.0)
 stepped(part, 0.0, 0.0, (0.15, 0.08))
 part.go(64.0, 2.0)
@@ -107,13 +112,7 @@ part.go(100.0, 50.0)
 part = fanuc("g71-one-block", "The stepped shaft by the older form in one block: D is the depth of a pass, in thousandths without a "
              "point, and parameter 5133 how far it goes back.",
              settings='[parameters]\n"0001.1" = 1\n5133 = 0.5')
-part.go(64.0, 2.0)
-part.set_feed(0.3)
-part.go(64.4, 2.1)
-part.along([(x + 0.4, SHAFT_ENDS[x] + 0.1) for x in sorted(SHAFT_ENDS, reverse=True)], level=2.1, e=0.5)
-part.go(x=20.4)
-stepped(part, 0.4, 0.1)
-part.go(64.0, 2.0)
+roughed(part)
 part.go(100.0, 50.0)
 
 # A bore: 50 to Z-10, cone to 40 at Z-20, 40 to Z-30, corner of 5 to the step 30 at Z-35, 30 to Z-45, face down to 18.

@@ -142,9 +142,9 @@ pub struct Rules {
     pub roughing_along: Fact<bool>,
     /// A peck of a lathe's drilling cycle goes back to its retract plane, or by the clearance; none where nobody says it (Q7).
     pub pecks_to_plane: Fact<Option<bool>>,
-    /// A face is milled with C in words of X as a diameter and C as a length; else of X as a radius and Y; none where nobody says it (V1).
+    /// A face is milled with C in words of X as a diameter and C as a length; else of X as a radius and Y; none if the table does not say it (V1).
     pub face_by_c: Fact<Option<bool>>,
-    /// A thread that is cut on both flanks begins with the leading one; none where that is said to be unknown (P6).
+    /// A thread that is cut on both flanks begins with the leading one; none if the table does not know (P6).
     pub leading_first: Fact<Option<bool>>,
     /// The settings of a lathe.
     pub turning: Turning,

@@ -2,12 +2,12 @@
 //!
 //! Law: such a block runs the drilling cycle in force at places round the place where the tool stands; so do blocks with these
 //! places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
-//! place is known from absolute words before in the same stretch of blocks, the plane is that of X and Y, coordinates are
-//! absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
+//! place is known from absolute words before in the same stretch of blocks, the plane is that of X and Y (or the library names no plane),
+//! coordinates are absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Units;
+use crate::dialect::{Control, Units};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::features::Features;
 use crate::legalize::moves::short_arcs::stands;
@@ -49,8 +49,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     continue;
                 }
                 changed = true;
-                let units = context.source.units();
-                match holes(&stmt, &state, place, (units, flat)) {
+                match holes(&stmt, &state, place, (context.source, flat)) {
                     Ok(holes) => {
                         place = Place(holes.last().copied().map_or(place.0, |last| last.map(Some)));
                         out.extend(written(&stmt, &holes));
@@ -114,7 +113,7 @@ fn holes(
     stmt: &Stmt,
     state: &Modal,
     place: Place,
-    (units, flat): (Option<Units>, bool),
+    (source, flat): (&Control, bool),
 ) -> Result<Vec<[f64; 2]>, &'static str> {
     let StmtKind::Nc(nc) = &stmt.kind else { return Ok(Vec::new()) };
     let own = |item: &NcItem| match item {
@@ -159,12 +158,13 @@ fn holes(
     let [Some(x), Some(y)] = place.0 else {
         return Err("it is not known here where the tool stands: write X and Y as numbers before it");
     };
-    let inch = match (state.op(Group::Units), units) {
+    let inch = match (state.op(Group::Units), source.units()) {
         (Some(op), _) => op == Op::Inch,
         (None, Some(units)) => units == Units::Inch,
         (None, None) => return Err("it is not known here whether lengths are inches or millimetres"),
     };
-    let parts = if inch { 10_000.0 } else { 1000.0 };
+    let numbers = source.numbers();
+    let parts = (1.0 / if inch { numbers.increment_inch } else { numbers.increment_mm }).round();
     let counted = |place: f64| (place * parts).round() / parts;
     let hole = |at: u32| {
         let angle = step.mul_add(f64::from(at), start).to_radians();

@@ -55,10 +55,10 @@ pub fn run_outs(module: &Module, context: &mut Context<'_>) {
     }
     let by = |one: &Option<(String, Option<f64>)>, control: &Control| {
         let name = one.as_ref().map_or("a parameter", |(name, _)| name.as_str());
-        format!("{name} of the {}", control.dialect().title)
+        format!("{name} ({})", control.dialect().title)
     };
     let what = format!(
-        "a single pass of a thread runs out at its end by {}, and here by {}: make sure that they say the same",
+        "a single pass of a thread runs out at its end by {} on the source, and by {} on the target: make sure that both say the same",
         by(&ours, context.source),
         by(&theirs, context.target)
     );

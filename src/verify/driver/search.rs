@@ -138,7 +138,7 @@ impl Verifier<'_, '_> {
     pub(super) fn tell(&mut self, scenario: &Scenario, run: &Run, new: bool) {
         let ended = match &run.end {
             End::Ended => true,
-            End::Alarm { stop, .. } => stop.program_number.is_some() || stop.no_label,
+            End::Alarm { stop, .. } => !stop.is_of_control(),
             _ => false,
         };
         self.returns |= run.events.last().is_some_and(|last| returns(&last.what));

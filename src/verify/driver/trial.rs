@@ -26,9 +26,8 @@ impl Verifier<'_, '_> {
                     let alone = of == Of::Target && !is_cut(run);
                     if alone { self.because(Why::Endless, &text) } else { self.endless.extend([text]) }
                 }
-                End::Alarm { stop, .. } if stop.program_number.is_none() && !stop.no_label => {
-                    let text = || format!("{} {}", stop.number, stop.text).trim().to_owned();
-                    self.stopped.get_or_insert_with(text);
+                End::Alarm { stop, .. } if stop.is_of_control() => {
+                    self.stopped.get_or_insert_with(|| stop.told());
                 }
                 End::Ended | End::Alarm { .. } => {}
             }

@@ -21,10 +21,10 @@ impl Verifier<'_, '_> {
         // Where the source's control itself stops the program, the program says nothing.
         if stops_by_itself(pair.run, difference) && !finds_no_label(pair.run) {
             let text = match &pair.run.end {
-                End::Alarm { stop, .. } => format!("{} {}", stop.number, stop.text),
+                End::Alarm { stop, .. } => stop.told(),
                 _ => String::new(),
             };
-            let text = format!("the source stops with an alarm of the control ({})", text.trim());
+            let text = format!("the source stops with an alarm of the control ({text})");
             return Some((Why::SourceAlarms, text));
         }
         if let Some(excuse) = excuse {

@@ -103,16 +103,8 @@ fn read(machine: &mut Machine, command: &Command, (along, begins): (usize, bool)
     let lasts = matches!(cycle.op, Op::FacePeck | Op::SidePeck);
     cycle.peck = peck.or(cycle.peck.filter(|_| lasts));
     // On a control whose P lasts across codes a cycle without one takes the last (S10).
-    let told = matches!(
-        cycle.op,
-        Op::FaceDrillDwell
-            | Op::FacePeck
-            | Op::FaceBoreDwell
-            | Op::SideDrillDwell
-            | Op::SidePeck
-            | Op::SideBoreDwell
-    );
-    let last = machine.lathe.last_dwell.filter(|_| begins && told).unwrap_or(cycle.dwell);
+    let last =
+        machine.lathe.last_dwell.filter(|_| begins && cycle.op.is_waiting_hole()).unwrap_or(cycle.dwell);
     cycle.dwell = command.word(Role::CycleDwell).map_or(last, |ms| ms / 1000.0);
     machine.lathe.last_dwell =
         command.word(Role::CycleDwell).map(|ms| ms / 1000.0).or(machine.lathe.last_dwell);

@@ -34,7 +34,7 @@ pub struct Turning {
     pub thread_allowance: Option<f64>,
     pub run_out: Option<f64>,
     pub run_out_angle: Option<f64>,
-    /// The angles that threads of many passes may have, degrees; none where all are taken (P3).
+    /// The angles that threads of many passes may have, degrees; none if every angle may stand (P3).
     pub thread_angles: Option<Vec<f64>>,
     /// True where the machine's profile names a C axis.
     pub has_c: bool,

@@ -261,7 +261,7 @@ impl Machine {
     }
 }
 
-/// Whether arcs may be made where the machine stands now; none where no such milling is in force.
+/// Whether arcs may be made in the plane in force; none if no such milling is in force.
 pub fn arcs(machine: &Machine) -> Option<bool> {
     let surface = machine.lathe.surface.as_ref()?;
     Some(match surface.kind {

@@ -255,7 +255,7 @@ impl Walk {
         if let Some(speed) = nc.word(Role::Speed) {
             self.speed = speed.constant().filter(|_| stmt.site.skip.is_none());
         }
-        let counts = self.cycle.dwell.is_some() || before.is_some_and(waits);
+        let counts = self.cycle.dwell.is_some() || before.is_some_and(Op::is_waiting_hole);
         if nc.has(Op::Dwell) && counts && before.is_some_and(Op::is_hole) {
             return Some(Err((WAITS, "end the cycle before the wait, and write it again after it")));
         }
@@ -307,19 +307,6 @@ impl Walk {
         let made = lead.chain([first]).chain(std::iter::repeat_n(more, times - 1));
         Some(Ok((made.collect(), asked)))
     }
-}
-
-/// True for a cycle that waits at the bottom by a P of its own code.
-fn waits(op: Op) -> bool {
-    matches!(
-        op,
-        Op::FaceDrillDwell
-            | Op::FacePeck
-            | Op::FaceBoreDwell
-            | Op::SideDrillDwell
-            | Op::SidePeck
-            | Op::SideBoreDwell
-    )
 }
 
 /// True for what each repeat of a hole is told: its place.

@@ -72,7 +72,7 @@ impl<'a> Lowering<'a> {
     fn bare_feed(&mut self, number: f64, span: Span) -> Expr {
         let counts = self.control.bare_feed();
         let open = self.control.feed_is_open();
-        // A turn and a minute count in other parts, a hundred times apart: too much to take as written.
+        // It may count otherwise in feed a turn than in feed a minute: too much to take as written.
         if self.control.machine() == Machine::Lathe && (open || counts == BareLength::Unknown) {
             let message = "no source says what a feed of this lathe counts without a decimal point: write the point, or say \
                            'bare_feed' under [settings] of the machine's profile";
