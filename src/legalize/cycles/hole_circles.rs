@@ -165,7 +165,8 @@ fn holes(
     };
     let numbers = source.numbers();
     let parts = (1.0 / if inch { numbers.increment_inch } else { numbers.increment_mm }).round();
-    let counted = |place: f64| (place * parts).round() / parts;
+    // No minus before 0.
+    let counted = |place: f64| (place * parts).round() / parts + 0.0;
     let hole = |at: u32| {
         let angle = step.mul_add(f64::from(at), start).to_radians();
         [counted(radius.mul_add(angle.cos(), x)), counted(radius.mul_add(angle.sin(), y))]
