@@ -4,6 +4,7 @@ use super::looked::{Findings, Looked};
 use crate::canon::Op;
 use crate::diag::Code;
 use crate::ir::analysis::dataflow::reached_among;
+use crate::ir::analysis::{last_place, text_ends};
 use crate::ir::{Block, BlockId, Callee, Program, StmtKind, TermKind};
 use crate::syntax::{ItemKind, Label, parse_file};
 use crate::text::Span;
@@ -233,37 +234,11 @@ pub(super) fn no_end(looked: &Looked<'_>, findings: &mut Findings) {
         if !acts || program.name.is_none() {
             continue;
         }
-        let falls = falls_to(program);
-        for id in cfg.order() {
-            let Some(block) = program.block(*id) else { continue };
-            // What only jumps lead to and nothing stands in is a label that is missing.
-            let there = !block.stmts.is_empty() || id.index() == 0 || falls.contains(id);
-            if there && matches!(block.term.kind, TermKind::Stray) {
-                let message =
-                    format!("the text of {} ends here without a code that ends it", looked.shown(at));
-                findings.add(program.file, Code::EndMissing, last_of(program), message);
-            }
+        for _ in text_ends(program, cfg) {
+            let message = format!("the text of {} ends here without a code that ends it", looked.shown(at));
+            findings.add(program.file, Code::EndMissing, last_place(program), message);
         }
     }
-}
-
-/// The blocks that control comes to without a jump.
-fn falls_to(program: &Program) -> BTreeSet<BlockId> {
-    let to = program.blocks.iter().filter_map(|block| match &block.term.kind {
-        TermKind::Jump(to) if block.term.site.span == Span::default() => Some(*to),
-        TermKind::Branch { otherwise: to, .. } | TermKind::Call { next: to, .. } => Some(*to),
-        _ => None,
-    });
-    to.collect()
-}
-
-/// The last place of a program.
-fn last_of(program: &Program) -> Span {
-    let spans = program
-        .blocks
-        .iter()
-        .flat_map(|block| block.stmts.iter().map(|stmt| stmt.site.span).chain([block.term.site.span]));
-    spans.max().unwrap_or(program.site.span)
 }
 
 /// A sequence number that stands twice in a program.

@@ -19,6 +19,7 @@ pub(crate) mod programmed;
 mod ranges;
 mod set;
 mod temps;
+mod text_ends;
 pub(crate) mod tool_word;
 pub(crate) mod upward_exposed;
 mod vacancy;
@@ -34,6 +35,7 @@ pub use modal_facts::{ModalFacts, replace_statements};
 pub use ranges::{Numbers, Ranges, Values};
 pub use set::{BitRow, Universe, VarSet};
 pub use temps::Temps;
+pub use text_ends::{last_place, text_ends};
 pub use vacancy::{Around, Filled, Vacancy};
 pub use values::{Assigned, Constant, values_at};
 

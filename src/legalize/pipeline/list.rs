@@ -9,6 +9,7 @@ use crate::dialect::Question;
 use crate::legalize::assumptions::{facts, runtime};
 use crate::legalize::calls::{
     chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
+    text_returns,
 };
 use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
@@ -170,6 +171,12 @@ const STRUCTURE: &[Pass] = &[
     .when(start::concerns),
     Pass::edits("link", "reports calls that leave the library", link::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::Chain)),
+    Pass::reports(
+        "text-returns",
+        "refuses programs that are called and whose text ends without a return",
+        text_returns::run,
+    )
+    .when(|c, _| c.has(Feature::Call)),
     Pass::rewrites("outline", "subroutines inside a program go where the target wants them", outline::run)
         .when(|c, _| c.has(Feature::LocalCall))
         .needs(&["link"])
