@@ -9,6 +9,7 @@ use crate::library::{
     settled,
 };
 use crate::verify::Effort;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Reads the programs under the paths; faults are said, and any of them is fatal.
@@ -176,6 +177,45 @@ pub fn doubt(name: &str, inputs: &[Input]) -> Option<String> {
         remark(told);
     }
     told
+}
+
+/// The dialect that was named, or that of the source's machine among those given; else the one that the text shows.
+/// `others` are the dialects of the other side: their machines are not the source's, but for the first of two of one dialect.
+pub fn source_of(
+    named: Option<&str>,
+    others: &[&str],
+    machines: &[PathBuf],
+    inputs: &[Input],
+) -> Result<String, u8> {
+    if named.is_some() || machines.is_empty() {
+        return dialect_of(named, inputs);
+    }
+    let mut spoken = Vec::new();
+    for path in machines {
+        spoken.extend(profile(path)?.map(|profile| profile.dialect));
+    }
+    let twice = |name: &String| spoken.iter().filter(|other| *other == name).count() > 1;
+    let own: BTreeSet<&String> =
+        spoken.iter().filter(|name| !others.contains(&name.as_str()) || twice(name)).collect();
+    match own.into_iter().collect::<Vec<_>>().as_slice() {
+        [name] => Ok((*name).clone()),
+        _ => dialect_of(None, inputs),
+    }
+}
+
+/// The control of a source alone, with the machine profile that was given for it.
+pub fn source(named: Option<&str>, machine: Option<&PathBuf>, inputs: &[Input]) -> Result<Control, u8> {
+    let name = source_of(named, &[], machine.map(std::slice::from_ref).unwrap_or_default(), inputs)?;
+    if let Some(path) = machine
+        && let Some(odd) = profile(path)?.filter(|profile| profile.dialect != name)
+    {
+        let (path, dialect) = (path.display(), odd.dialect);
+        return Err(complain(format!(
+            "{path} is a profile for '{dialect}', and the program is one for '{name}'"
+        )));
+    }
+    let own = if machine.is_some() { None } else { own_profile(named, inputs)? };
+    control(&name, machine.or(own.as_ref()).map(PathBuf::as_path))
 }
 
 /// The dialect that was named, or the one that the text shows.

@@ -1,6 +1,6 @@
 //! `macroglot diff OLD NEW`.
 
-use super::common::{Time, controls, dialect_of, doubt, effort, endings, not_over, own_profile};
+use super::common::{Time, controls, doubt, effort, endings, not_over, own_profile, source_of};
 use super::streams::{complain, print};
 use super::verify::{folder_of, names};
 use super::{FOUND, WELL, common, drawing, pager};
@@ -159,7 +159,8 @@ fn compare(
         print(&draw(arguments, &Diff::of_nothing(), &[], &[]))?;
         return Ok(WELL);
     }
-    let from = dialect_of(arguments.from.as_deref(), known)?;
+    let to = arguments.to.as_deref();
+    let from = source_of(arguments.from.as_deref(), to.as_slice(), &arguments.machine, known)?;
     let to = arguments.to.clone().unwrap_or_else(|| from.clone());
     let own = own_profile(arguments.from.as_deref(), known)?;
     let (source, target) =
@@ -298,10 +299,9 @@ fn normalise(arguments: &Arguments) -> Result<u8, u8> {
     let [input] = inputs.as_slice() else {
         return if inputs.is_empty() { Ok(WELL) } else { Err(complain("--normalise takes one file")) };
     };
-    let from = dialect_of(arguments.from.as_deref(), &inputs)?;
-    let control = common::control(&from, arguments.machine.first().map(PathBuf::as_path))?;
+    let control = common::source(arguments.from.as_deref(), arguments.machine.first(), &inputs)?;
     match normalised(&input.bytes, &control) {
         Some(text) => print(&text).map(|()| WELL),
-        None => Err(complain(format!("there is no emulated control for '{from}'"))),
+        None => Err(complain(format!("there is no emulated control for '{}'", control.dialect().name))),
     }
 }

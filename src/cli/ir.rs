@@ -47,13 +47,14 @@ fn print(arguments: &Arguments) -> Result<u8, u8> {
         return Ok(WELL);
     };
     let inputs = common::read(std::slice::from_ref(file))?;
-    let name = common::dialect_of(arguments.dialect.as_deref(), &inputs)?;
+    let named = arguments.dialect.as_deref();
     match &arguments.to {
         Some(to) => {
+            let name = common::source_of(named, &[to], &arguments.machine, &inputs)?;
             let (source, target) = common::controls(&name, to, &arguments.machine, None)?;
             legalized(&inputs, &source, &target, arguments.after.as_deref())
         }
-        None => lowered(&inputs, &common::control(&name, arguments.machine.first().map(PathBuf::as_path))?),
+        None => lowered(&inputs, &common::source(named, arguments.machine.first(), &inputs)?),
     }
 }
 

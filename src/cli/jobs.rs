@@ -1,8 +1,8 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
 use super::common::{
-    control, controls, dialect_of, doubt, endings, kinds, meeting, names, own_profile, profile_files, read,
-    read_all, read_found,
+    control, controls, doubt, endings, kinds, meeting, names, own_profile, profile_files, read, read_all,
+    read_found, source_of,
 };
 use super::reviews::way_of;
 use super::streams::{complain, remark};
@@ -170,7 +170,7 @@ fn apart(jobs: &[Job]) -> Result<(), u8> {
 fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let (inputs, left_out) = read_all(wish.paths)?;
     let (inputs, named) = with_library(inputs, wish.library)?;
-    let from = dialect_of(wish.from, &inputs)?;
+    let from = source_of(wish.from, wish.to.as_slice(), wish.machines, &inputs)?;
     let Some(to) = wish.to else {
         return Err(complain(format!("name the control to convert for with --to: one of {}", names())));
     };

@@ -1,6 +1,6 @@
 //! `macroglot run FILE`.
 
-use super::common::{control, dialect_of, kind_told, not_over, own_profile, profile_files, read};
+use super::common::{kind_told, not_over, own_profile, profile_files, read, source};
 use super::streams::{be_open, complain, complain_lines, print_by, tell};
 use super::{FOUND, UNUSABLE, WELL, drawing};
 use crate::control::trace::Place;
@@ -88,9 +88,9 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     if inputs.len() > 1 {
         return Err(complain("run takes one program: name its file, and name the others with --library"));
     }
-    let name = dialect_of(arguments.dialect.as_deref(), &inputs)?;
-    let own = own_profile(arguments.dialect.as_deref(), &inputs)?;
-    let control = control(&name, arguments.machine.as_deref().or(own.as_deref()))?;
+    let named = arguments.dialect.as_deref();
+    let control = source(named, arguments.machine.as_ref(), &inputs)?;
+    let own = own_profile(named, &inputs)?;
     if !arguments.library.is_empty() {
         let others = read(&arguments.library)?;
         let main = inputs.first().map(|input| input.path.clone());

@@ -1,6 +1,6 @@
 //! Which libraries a check is about, and which of their files: by its arguments, and by the project file.
 
-use super::common::{control, dialect_of, endings, kind_told, own_profile, profile, profile_files, read_all};
+use super::common::{control, endings, kind_told, own_profile, profile, profile_files, read_all, source_of};
 use super::jobs::short;
 use super::streams::{complain, remark};
 use crate::check::{Output, Shelf};
@@ -56,7 +56,8 @@ pub fn shelves(asked: &Asked<'_>) -> Result<Shelves, u8> {
 
 fn of_paths(asked: &Asked<'_>) -> Result<Shelves, u8> {
     let (inputs, _) = read_all(asked.paths)?;
-    let dialect = dialect_of(asked.dialect, &inputs)?;
+    let others: Vec<&str> = asked.against.iter().map(String::as_str).collect();
+    let dialect = source_of(asked.dialect, &others, asked.machines, &inputs)?;
     let own = own_profile(asked.dialect, &inputs)?;
     let mut profiles = Vec::new();
     for path in asked.machines {

@@ -1,7 +1,7 @@
 //! `macroglot survey PATH...`.
 
 use super::WELL;
-use super::common::{self, control, controls, dialect_of, doubt, own_profile, read};
+use super::common::{self, control, controls, doubt, own_profile, read, source_of};
 use super::streams::{self, complain, complain_lines, remark};
 use crate::dialect::{Machine, Side};
 use crate::library::{Files, of_library, settled, write_file};
@@ -47,8 +47,8 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn work(arguments: &Arguments) -> Result<(), u8> {
     let inputs = read(&arguments.paths)?;
-    let from = dialect_of(arguments.from.as_deref(), &inputs)?;
     let to = arguments.to.as_deref();
+    let from = source_of(arguments.from.as_deref(), to.as_slice(), &arguments.machine, &inputs)?;
     let mut dialects: Vec<&str> = [from.as_str()].into_iter().chain(to).collect();
     // A library that stays on its control has one profile.
     dialects.dedup();

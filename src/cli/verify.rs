@@ -1,7 +1,7 @@
 //! `macroglot verify SOURCE TARGET`.
 
 use super::common::{
-    Time, controls, dialect_of, effort, kinds_told, not_over, own_profile, profile_files, read,
+    Time, controls, dialect_of, effort, kinds_told, not_over, own_profile, profile_files, read, source_of,
 };
 use super::streams::{complain, print, remark};
 use super::{FOUND, WELL, pager};
@@ -66,8 +66,8 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let read_files = programs.chain(&profiles).chain(&own_files).map(PathBuf::as_path);
     arguments.certificate.as_ref().map_or(Ok(()), |path| not_over(path, read_files))?;
     tell_changed(&home, &theirs)?;
-    let from = dialect_of(arguments.from.as_deref(), &ours)?;
     let to = dialect_of(arguments.to.as_deref(), &theirs)?;
+    let from = source_of(arguments.from.as_deref(), &[&to], &arguments.machine, &ours)?;
     let own = own_profile(arguments.from.as_deref(), &ours)?;
     let (source, target) = kinds_told(&ours, controls(&from, &to, &arguments.machine, own.as_deref())?)?;
     let names = names(&home, &source, &target)?;

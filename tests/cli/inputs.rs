@@ -78,6 +78,33 @@ fn a_control_that_is_not_certain_is_asked_for() {
 }
 
 #[test]
+fn a_machine_of_the_source_says_its_control() {
+    let shop = Shop::with(&[
+        ("a.nc", "O1\nG0 X1. Y2.\nM30\n"),
+        ("vf.toml", "dialect = \"haas\"\n"),
+        ("own.toml", "dialect = \"fanuc\"\n"),
+        ("third.toml", "dialect = \"fadal\"\n"),
+    ]);
+    for line in [
+        "run a.nc --machine vf.toml",
+        "ir a.nc --machine vf.toml",
+        "diff --normalise a.nc --machine own.toml",
+        "survey a.nc --machine own.toml",
+        "convert a.nc --to haas --machine vf.toml --machine own.toml --out to-haas",
+        "convert a.nc --to fanuc --machine own.toml --machine own.toml --out to-fanuc",
+    ] {
+        let run = shop.run(line);
+        assert_ne!(run.code, 2, "{line}: {}", run.err);
+        assert!(!run.err.contains("not certain"), "{line}: {}", run.err);
+    }
+    // The target's machine alone says nothing of the source.
+    shop.fails("convert a.nc --to haas --machine vf.toml --out out", &["not certain", "--from"]);
+    shop.fails("convert a.nc --to haas --machine own.toml --machine third.toml --out out", &["not certain"]);
+    // It is not passed over where the program is said to be another's.
+    shop.fails("run a.nc --dialect fanuc --machine vf.toml", &["profile for 'haas'", "'fanuc'"]);
+}
+
+#[test]
 fn a_folder_of_two_kinds_is_not_guessed_and_a_wrong_name_is_told() {
     let fadal = "O2\n#V1=5\n#R1=V1\n#IF V1 GT 3 THEN GOTO :A\n#V1=1\n#:A\nG90 G0 X+R1\nM2\n";
     let fanuc =
