@@ -2,16 +2,18 @@
 //!
 //! Law: such a block runs the drilling cycle in force at places round the place where the tool stands; so do blocks with these
 //! places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
-//! place is known from absolute words before in the same stretch of blocks, the plane is that of X and Y (or the library names no plane),
+//! place is known from absolute words before, the same on every way, the plane is that of X and Y (or the library names no plane),
 //! coordinates are absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Units};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::moves::short_arcs::stands;
-use crate::legalize::{Context, Modal};
+use crate::legalize::{Context, Modal, ModalFacts};
 
 /// More holes than this are a slip.
 const MOST: f64 = 1000.0;
@@ -32,14 +34,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     // Machines begin in the plane of X and Y.
     let other = |op: Op| op.group() == Group::Plane && op != Op::PlaneXy;
     let flat = !context.features.any_op(other);
+    let comes_back = context.summaries(module).come_back();
     let mut changed = false;
     for index in 0..module.programs.len() {
         if !context.may_concern(index, concerns) {
             continue;
         }
-        for (at, block) in module.programs[index].blocks.iter_mut().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            let mut place = Place::default();
+        let program = &mut module.programs[index];
+        let rules = Rules { index, facts: &facts, comes_back, sides: (context.source, flat) };
+        let places = solve(&rules, program, &Cfg::of(program));
+        for (id, block) in program.ids().zip(&mut program.blocks) {
+            let mut state = facts.at(index, id);
+            let mut place = places.at(id).copied().unwrap_or_default();
+            place.enter(block, comes_back);
             let mut out = Stmts::with_capacity(block.stmts.len());
             for stmt in std::mem::take(&mut block.stmts) {
                 state.step(&stmt);
@@ -49,9 +56,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     continue;
                 }
                 changed = true;
-                match holes(&stmt, &state, place, (context.source, flat)) {
+                match holes(&stmt, &state, place, rules.sides) {
                     Ok(holes) => {
-                        place = Place(holes.last().copied().map_or(place.0, |last| last.map(Some)));
+                        place = place.after(&holes);
                         out.extend(written(&stmt, &holes));
                     }
                     Err(why) => {
@@ -72,10 +79,65 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 /// Where the tool stands along X and Y, in the numbers of the program.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Place([Option<f64>; 2]);
 
+impl Lattice for Place {
+    fn join(&mut self, other: &Self) -> bool {
+        let before = *self;
+        self.0.iter_mut().zip(other.0).for_each(|(own, other)| *own = own.filter(|own| Some(*own) == other));
+        *self != before
+    }
+}
+
+/// What blocks of a program do to it.
+struct Rules<'r> {
+    index: usize,
+    facts: &'r ModalFacts,
+    /// True where a call may come back at any label.
+    comes_back: bool,
+    sides: (&'r Control, bool),
+}
+
+impl Analysis for Rules<'_> {
+    type State = Place;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Place)> {
+        cfg.roots().iter().map(|root| (*root, Place::default())).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, place: &mut Place) {
+        place.enter(block, self.comes_back);
+        let mut state = self.facts.at(self.index, id);
+        for stmt in &block.stmts {
+            state.step(stmt);
+            if stmt.kind.nc().is_some_and(|nc| nc.ops().any(is_pattern)) {
+                *place = holes(stmt, &state, *place, self.sides)
+                    .map_or_else(|_| Place::default(), |holes| place.after(&holes));
+            } else {
+                place.step(stmt, &state);
+            }
+        }
+        if matches!(block.term.kind, TermKind::Call { .. }) {
+            *place = Place::default();
+        }
+    }
+}
+
 impl Place {
+    /// Comes to the start of a block, where a call may come back too.
+    fn enter(&mut self, block: &Block, comes_back: bool) {
+        if comes_back && !block.labels.is_empty() {
+            *self = Self::default();
+        }
+    }
+
+    /// Where the last of these holes leaves the tool.
+    fn after(self, holes: &[[f64; 2]]) -> Self {
+        Self(holes.last().map_or(self.0, |last| last.map(Some)))
+    }
+
     /// Takes a statement's effect; `after` is what is in force after it.
     fn step(&mut self, stmt: &Stmt, after: &Modal) {
         // A shift may be written there.
