@@ -24,6 +24,5 @@ pub mod tap_feeds;
 pub mod thread_form;
 pub mod thread_passes;
 pub mod threads;
-pub mod unit_agrees;
 pub mod written_corners;
 pub mod x_counts;

@@ -6,7 +6,7 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes, interpolations,
-    lone_steps, rapid_in_force, roughing, steps, tap_feeds, threads, unit_agrees, written_corners, x_counts,
+    lone_steps, rapid_in_force, roughing, steps, tap_feeds, threads, written_corners, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -106,8 +106,6 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(rapid_in_force::concerns)
     .needs(&["home", "lathe-cycles"]),
-    Pass::reports("unit-agrees", "refuses the unit that the target is not set to", unit_agrees::run)
-        .when(unit_agrees::concerns),
     Pass::reports("roughing", "checks that the roughing of contours ends alike", roughing::run)
         .when(roughing::concerns),
     Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)

@@ -6,7 +6,7 @@ use crate::legalize::cycles::{hole_circles, tap_leads, tapping};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, rotations, shaped, shift,
-    short_arcs, unit_checks, units, word_rounds,
+    short_arcs, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
@@ -47,6 +47,9 @@ pub(super) const MOVES: &[Pass] = &[
         .needs(&["increments", "modal-calls"]),
     Pass::rewrites("unit-checks", "a unit that the target cannot select is checked", unit_checks::run)
         .when(unit_checks::concerns)
+        .needs(&["units"]),
+    Pass::reports("unit-agrees", "tells of the unit that the target is not set to", unit_agrees::run)
+        .when(unit_agrees::concerns)
         .needs(&["units"]),
     Pass::rewrites("rotations", "what stands under a rotation is turned", rotations::run)
         .when(|c, context| (c.op(Op::RotateOn) || c.op(Op::RotateOff)) && rotations::concerns(context.target))
