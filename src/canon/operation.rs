@@ -259,6 +259,8 @@ super::vocabulary! {
         HolesCircle = "holes.circle",
         /// The same at places on an arc, by an angle between them.
         HolesArc = "holes.arc",
+        /// The same at places on a line, the first of them where the tool stands.
+        HolesLine = "holes.line",
         /// A cycle that only this family of controls has; never carried across.
         CycleOther = "cycle.other",
         /// Absolute coordinates.

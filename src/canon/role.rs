@@ -92,11 +92,13 @@ super::vocabulary! {
         CycleJ = "cycle.j",
         /// Radius of a circle of holes.
         HolesRadius = "holes.radius",
-        /// Angle of the first hole of a circle, counterclockwise from the first axis of the plane.
+        /// Angle of the first hole of a circle, or of a line of holes, counterclockwise from the first axis of the plane.
         HolesStart = "holes.start",
         /// Angle between the holes on an arc.
         HolesStep = "holes.step",
-        /// How many holes are on a circle or an arc.
+        /// Distance from hole to hole on a line.
+        HolesApart = "holes.apart",
+        /// How many holes are on a circle, an arc or a line.
         HolesCount = "holes.count",
         /// Lead of a thread.
         Lead = "lead",

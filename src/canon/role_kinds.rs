@@ -172,6 +172,7 @@ impl Role {
                 | Role::CycleJ
                 | Role::PolarDistance
                 | Role::HolesRadius
+                | Role::HolesApart
                 | Role::OffsetValue
                 | Role::OffsetNose
         )

@@ -257,7 +257,8 @@ part.rapid(z=5.0)
 part.to("fanuc", "calls/repeats.rs")
 
 part = Milled("hole-circles", "Twelve holes on a circle of 5 about (0, 0) from 15 degrees on, then four on an arc of 3 about (1, 2), from 90\n"
-                              "degrees on by 22.5, clockwise (manual of 2017, p. 286, p. 287). L0 stores the cycle.")
+                              "degrees on by 22.5, clockwise (manual of 2017, p. 286, p. 287), then three on a line at 30 degrees, 1.5 apart,\n"
+                              "the first where the tool stands (the maker's page on G72). L0 stores the cycle.")
 part.work(1)
 part.rapid(0.0, 0.0)
 part.rapid(z=1.0)
@@ -267,6 +268,10 @@ for (cx, cy), radius, start, step, count in (((0.0, 0.0), 5.0, 15.0, 30.0, 12), 
         angle = math.radians(start + at * step)
         x, y = round(cx + radius * math.cos(angle), 4), round(cy + radius * math.sin(angle), 4)
         part.hole(x, y, r=0.1, bottom=-1.0, back=1.0, f=15.0)
+part.rapid(1.0, 2.0)
+for at in range(3):
+    x, y = round(1.0 + 1.5 * at * math.cos(math.radians(30.0)), 4), round(2.0 + 1.5 * at * math.sin(math.radians(30.0)), 4)
+    part.hole(x, y, r=0.1, bottom=-1.0, back=1.0, f=15.0)
 part.rapid(0.0, 0.0)
 part.to("fanuc", "cycles/hole_circles.rs")
 

@@ -120,6 +120,7 @@ fn is_done_elsewhere(op: Op) -> bool {
                 | CycleHere
                 | HolesCircle
                 | HolesArc
+                | HolesLine
                 | TurretIndex
                 | Stop
                 | OptionalStop

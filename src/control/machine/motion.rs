@@ -67,7 +67,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             Op::FaceGroove | Op::Groove => {
                 return lathe::groove::run(machine, op, command, trace).map(|()| false);
             }
-            Op::HolesCircle | Op::HolesArc => {
+            Op::HolesCircle | Op::HolesArc | Op::HolesLine => {
                 return holes::run(machine, op, command, trace).map(|()| false);
             }
             Op::Threading => return lathe::thread::many(machine, command, trace).map(|()| false),

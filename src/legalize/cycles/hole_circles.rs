@@ -1,7 +1,7 @@
-//! Holes on a circle or an arc that one block names.
+//! Holes on a circle, an arc or a line that one block names.
 //!
-//! Law: such a block runs the drilling cycle in force at places round the place where the tool stands; so do blocks with these
-//! places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
+//! Law: such a block runs the drilling cycle in force at places round the place where the tool stands, or from there on along a line; so
+//! do blocks with these places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
 //! place is known from absolute words before, the same on every way, the plane is that of X and Y (or the library names no plane),
 //! coordinates are absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
 
@@ -24,7 +24,7 @@ pub fn concerns(features: &Features) -> bool {
 }
 
 fn is_pattern(op: Op) -> bool {
-    matches!(op, Op::HolesCircle | Op::HolesArc)
+    matches!(op, Op::HolesCircle | Op::HolesArc | Op::HolesLine)
 }
 
 /// Writes the places out, and refuses what cannot be; true where any were written.
@@ -62,7 +62,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                         out.extend(written(&stmt, &holes));
                     }
                     Err(why) => {
-                        let what = format!("holes on a circle cannot be written out: {why}");
+                        let what = format!("holes in a pattern cannot be written out: {why}");
                         let help = "write the places of the holes into blocks of their own";
                         let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
                         context.add(index, finding.with_help(help));
@@ -181,7 +181,8 @@ fn holes(
     let own = |item: &NcItem| match item {
         NcItem::Op(op) => is_pattern(*op),
         NcItem::Word(role, _) => {
-            matches!(role, Role::HolesRadius | Role::HolesStart | Role::HolesStep | Role::HolesCount)
+            use Role::*;
+            matches!(role, HolesRadius | HolesApart | HolesStart | HolesStep | HolesCount)
         }
         NcItem::Code(..) => false,
     };
@@ -192,16 +193,20 @@ fn holes(
         Some(word) => word.constant().map(Some).ok_or("its words are computed"),
         None => Ok(None),
     };
-    let (radius, count) = (word(Role::HolesRadius)?, word(Role::HolesCount)?);
+    let is = |pattern| nc.ops().any(|op| op == pattern);
+    let line = is(Op::HolesLine);
+    let length = if line { Role::HolesApart } else { Role::HolesRadius };
+    let (length, count) = (word(length)?, word(Role::HolesCount)?);
     let (start, step) = (word(Role::HolesStart)?.unwrap_or(0.0), word(Role::HolesStep)?);
-    let (Some(radius), Some(count)) = (radius, count) else {
-        return Err("it has no radius or no number of holes");
+    let (Some(length), Some(count)) = (length, count) else {
+        return Err("it has no radius or distance, or no number of holes");
     };
     if !(1.0..=MOST).contains(&count) || count.fract() != 0.0 {
-        return Err("the number of holes is none");
+        return Err("the number of holes is not a whole number from 1 to 1000");
     }
     let step = match step {
-        _ if nc.ops().any(|op| op == Op::HolesCircle) => 360.0 / count,
+        _ if is(Op::HolesCircle) => 360.0 / count,
+        _ if line => 0.0,
         Some(step) => step,
         None => return Err("it has no angle between the holes"),
     };
@@ -231,7 +236,8 @@ fn holes(
     let counted = |place: f64| (place * parts).round() / parts + 0.0;
     let hole = |at: u32| {
         let angle = step.mul_add(f64::from(at), start).to_radians();
-        [counted(radius.mul_add(angle.cos(), x)), counted(radius.mul_add(angle.sin(), y))]
+        let away = if line { length * f64::from(at) } else { length };
+        [counted(away.mul_add(angle.cos(), x)), counted(away.mul_add(angle.sin(), y))]
     };
     Ok((0..count as u32).map(hole).collect())
 }
