@@ -115,6 +115,16 @@ part = fanuc("g71-one-block", "The stepped shaft by the older form in one block:
 roughed(part)
 part.go(100.0, 50.0)
 
+part = fanuc("g71-steps-alone", "The same with parameter 5105.1 as 1: the levels, and no pass along the shape.",
+             run="tests/motions/programs/fanuc/lathe-g71-one-block.nc",
+             settings='[parameters]\n"0001.1" = 1\n5133 = 0.5\n"5105.1" = 1\n"5105.2" = 0')
+part.go(64.0, 2.0)
+part.set_feed(0.3)
+part.go(64.4, 2.1)
+part.along([(x + 0.4, SHAFT_ENDS[x] + 0.1) for x in sorted(SHAFT_ENDS, reverse=True)], level=2.1, e=0.5)
+part.go(64.0, 2.0)
+part.go(100.0, 50.0)
+
 # A bore: 50 to Z-10, cone to 40 at Z-20, 40 to Z-30, corner of 5 to the step 30 at Z-35, 30 to Z-45, face down to 18.
 BORE_ENDS = {22.0: -45.0, 26.0: -45.0, 30.0: -45.0, 34.0: -30.0 - leg(5.0, 2.0), 38.0: -33.0, 42.0: -18.0, 46.0: -14.0}
 
@@ -220,6 +230,13 @@ part.go(54.0, 3.0)
 rough_valleys(part, [], [])
 part.go(x=44.4)
 valleys(part, 0.4)
+part.go(54.0, 3.0)
+
+part = fanuc("g71-valleys-alone", "The same with parameter 5105.2 as 1: the levels, and no pass along the shape.",
+             run="tests/motions/programs/fanuc/lathe-g71-pocket.nc",
+             settings='[parameters]\n"5105.1" = 0\n"5105.2" = 1')
+part.go(54.0, 3.0)
+rough_valleys(part, [], [])
 part.go(54.0, 3.0)
 
 part = fanuc("g71-corners",

@@ -29,6 +29,8 @@ pub struct Turning {
     /// Depth and retract of roughing.
     pub depth: Option<f64>,
     pub retract: Option<f64>,
+    /// Whether roughing leaves out its pass along a contour: of one without valleys, and of one with them (K9).
+    pub skips_along: [bool; 2],
     /// Retract of pecks.
     pub peck_retract: Option<f64>,
     /// The least depth, the finishing allowance, the run-out in leads and its angle, of threads.
@@ -85,6 +87,7 @@ impl Turning {
             arc_limit: told("arc.limit").map(|value| value * unit),
             depth: length(Role::CutDepth, &rough),
             retract: length(Role::CutRetract, &rough),
+            skips_along: [false, true].map(|valleys| control.skips_along(valleys).is_some()),
             peck_retract: length(Role::CutRetract, &pecks),
             thread_least: length(Role::ThreadLeast, &[Op::Threading]),
             thread_allowance: length(Role::ThreadAllowance, &[Op::Threading]),
