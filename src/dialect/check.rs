@@ -81,6 +81,8 @@ pub const TELLS: &[&str] = &[
     "arc.limit",
     "thread.run.out.angle",
     "lathe.feed",
+    "roughing.skips.steps",
+    "roughing.skips.valleys",
     "paths.wait.first",
     "paths.wait.last",
     "paths.wait.p",

@@ -108,4 +108,11 @@ impl Control {
         let row = self.dialect().settings.iter().find(|row| row.tells.as_deref() == Some(name))?;
         Some((row, self.setting(&row.name)))
     }
+
+    /// The setting by which roughing leaves out its pass along a contour, of one with valleys or of one without; none where it
+    /// does not.
+    pub fn skips_along(&self, valleys: bool) -> Option<&Setting> {
+        let name = if valleys { "roughing.skips.valleys" } else { "roughing.skips.steps" };
+        self.told(name).filter(|(_, value)| *value == Some("1")).map(|(row, _)| row)
+    }
 }

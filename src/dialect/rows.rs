@@ -299,6 +299,8 @@ pub struct Setting {
     pub gives: Option<Role>,
     /// The word that the cycles take from the setting where no block says it.
     pub otherwise: Option<Role>,
+    /// How many of what the setting counts make one of the word: 10 for tenths of a lead.
+    pub parts: Option<u32>,
     /// The operations that take it.
     #[serde(default)]
     pub cycles: Vec<Op>,
@@ -311,6 +313,13 @@ pub struct Setting {
     /// Where it comes from.
     #[serde(skip_deserializing)]
     pub origin: Origin,
+}
+
+impl Setting {
+    /// What its value is divided by to be that of its word.
+    pub fn whole(&self) -> f64 {
+        f64::from(self.parts.unwrap_or(1).max(1))
+    }
 }
 
 /// A run of written numbers and what is added to them.

@@ -115,6 +115,16 @@ part = fanuc("g71-one-block", "The stepped shaft by the older form in one block:
 roughed(part)
 part.go(100.0, 50.0)
 
+part = fanuc("g71-steps-alone", "The same with parameter 5105.1 as 1: the levels, and no pass along the shape.",
+             run="tests/motions/programs/fanuc/lathe-g71-one-block.nc",
+             settings='[parameters]\n"0001.1" = 1\n5133 = 0.5\n"5105.1" = 1\n"5105.2" = 0')
+part.go(64.0, 2.0)
+part.set_feed(0.3)
+part.go(64.4, 2.1)
+part.along([(x + 0.4, SHAFT_ENDS[x] + 0.1) for x in sorted(SHAFT_ENDS, reverse=True)], level=2.1, e=0.5)
+part.go(64.0, 2.0)
+part.go(100.0, 50.0)
+
 # A bore: 50 to Z-10, cone to 40 at Z-20, 40 to Z-30, corner of 5 to the step 30 at Z-35, 30 to Z-45, face down to 18.
 BORE_ENDS = {22.0: -45.0, 26.0: -45.0, 30.0: -45.0, 34.0: -30.0 - leg(5.0, 2.0), 38.0: -33.0, 42.0: -18.0, 46.0: -14.0}
 
@@ -220,6 +230,13 @@ part.go(54.0, 3.0)
 rough_valleys(part, [], [])
 part.go(x=44.4)
 valleys(part, 0.4)
+part.go(54.0, 3.0)
+
+part = fanuc("g71-valleys-alone", "The same with parameter 5105.2 as 1: the levels, and no pass along the shape.",
+             run="tests/motions/programs/fanuc/lathe-g71-pocket.nc",
+             settings='[parameters]\n"5105.1" = 0\n"5105.2" = 1')
+part.go(54.0, 3.0)
+rough_valleys(part, [], [])
 part.go(54.0, 3.0)
 
 part = fanuc("g71-corners",
@@ -513,6 +530,19 @@ part.go(42.0)
 part.go(z=-50.0)
 part.side_pecks([-50.0], [26.0, 10.0, -1.0], 0.25, f=0.05)
 
+part = fanuc("g75-one-block",
+             "The older form in one block: the groove of before by I2. K3.5 D.1, the face groove by I2.5 K3. D.2, and the hole of 25 by "
+             "K8. alone. Parameter 5139 is the way back, .3.",
+             settings='[parameters]\n"0001.1" = 1\n5139 = 0.3')
+part.go(44.0, -20.0)
+part.side_pecks([-20.0, -23.5, -27.0, -28.0], [40.0, 36.0, 32.0, 30.0], 0.3, relief=0.1, f=0.08)
+part.go(80.0)
+part.go(z=2.0)
+part.go(50.0)
+part.face_pecks([50.0, 45.0, 40.0, 38.0], [-1.0, -4.0, -7.0, -8.0], 0.3, relief=0.2, f=0.1)
+part.go(0.0, 3.0)
+part.face_pecks([0.0], [-5.0, -13.0, -21.0, -25.0], 0.3, f=0.15)
+
 # ---------------------------------------------------------------------------------------------------------------------
 # Threads on Fanuc.
 
@@ -544,6 +574,19 @@ part = fanuc("g76-one-pass",
              "angle, no chamfer.")
 part.go(16.0, 3.0)
 part.screw(10.2, -12.0, [0.85, 0.9], height=0.9, lead=1.5)
+
+part = fanuc("g76-one-block",
+             "The older form in one block: the M20 by 2.5, parameters 5140 .1, 5141 .05 and 5142 2. P4, a tapered bore, both flanks in turn, "
+             "I.8, A55: .3, .6, .9, .95, then two at 1. P3, straight in, one flank.",
+             settings='[parameters]\n"0001.1" = 1\n5130 = 0\n5140 = 0.1\n5141 = 0.05\n5142 = 2')
+part.go(24.0, 5.0)
+part.screw(17.0, -30.0, equal_chips(0.4, 0.1, 1.45) + [1.5, 1.5], height=1.5, lead=2.5, angle=60.0)
+part.go(60.0)
+part.go(z=3.0)
+part.go(x=18.0)
+part.screw(24.0, -21.0, [0.3, 0.6, 0.9, 0.95, 1.0, 1.0], height=1.0, lead=2.0, side=INSIDE, angle=55.0, taper=0.8, both=True)
+part.go(10.0)
+part.screw(24.0, -21.0, [0.3, 0.6, 0.9, 0.95, 1.0, 1.0], height=1.0, lead=2.0, side=INSIDE)
 
 part = fanuc("g92-thread",
              "Passes at 19.2, 18.7, 18.4 from X24. Z4.; a taper of -.8 that the next pass keeps; a bore with .5; Z "

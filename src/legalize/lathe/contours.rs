@@ -93,6 +93,15 @@ fn is_split(program: &Program, (at, place): (usize, usize)) -> bool {
         .is_some_and(|(this, next)| this.site.span == next.site.span && this.site.span != Span::default())
 }
 
+/// True where the contour of a cycle is one with valleys by its first block, which names both axes; none where that is not known.
+pub(super) fn has_valleys(program: &Program, nc: &Nc) -> Option<bool> {
+    let first = nc.word(Role::ContourFirst).and_then(|value| value.constant())?;
+    let (block, place) = find(program, first as u32).ok()?;
+    let first = program.blocks.get(block)?.stmts.get(place)?.kind.nc()?;
+    let names = |axis: Role, step: Role| first.word(axis).or(first.word(step)).is_some();
+    Some(names(Role::X, Role::StepX) && names(Role::Z, Role::StepZ))
+}
+
 /// The only block and statement with a sequence number.
 fn find(program: &Program, number: u32) -> Result<(usize, usize), String> {
     let mut all = program.blocks.iter().enumerate().flat_map(|(at, block)| {

@@ -4,7 +4,7 @@ use super::settings::{Kind, row, setting, takes};
 use super::thread_form;
 use crate::assume::Predicate;
 use crate::canon::Role;
-use crate::dialect::Control;
+use crate::dialect::{Control, Setting};
 use crate::ir::{Expr, Nc, NcItem, Stmt};
 
 /// What a cycle takes besides its own words.
@@ -65,7 +65,9 @@ pub(super) fn resolve(
     kind: &'static Kind,
     target: &Control,
 ) -> Result<Given, (String, String)> {
-    let finishes = if takes(target, kind.setup, Role::ThreadForm) { 0 } else { more_finishes(&mut values) };
+    let counts_finishes = takes(target, kind.setup, Role::ThreadForm)
+        || setting(target, kind.cycle, Role::ThreadFinishes).is_some();
+    let finishes = if counts_finishes { 0 } else { more_finishes(&mut values) };
     let angle = constant(&values, Role::ThreadAngle).unwrap_or(0.0);
     if takes(target, kind.cycle, Role::ThreadInfeed)
         && values.iter().all(|(role, _)| *role != Role::ThreadInfeed)
@@ -209,16 +211,18 @@ fn in_setting(
     kind: &Kind,
     target: &Control,
 ) -> Result<Option<Need>, (String, String)> {
-    if role == Role::ThreadFinishes {
+    let by = setting(target, kind.cycle, role);
+    if role == Role::ThreadFinishes && by.is_none() {
         let what = "the number of finishing passes of this thread is computed, or none";
         return match value.constant() {
             Some(1.0) => Ok(None),
             _ => Err((what.into(), "write it as a number".into())),
         };
     }
-    let Some((name, stated)) = setting(target, kind.cycle, role) else {
+    let Some((name, stated)) = by else {
         return Err((format!("the target has no word for {} here", meaning(role)), String::new()));
     };
+    let whole = target.setting_row(name).map_or(1.0, Setting::whole);
     let (kind, number) = setting_named(name);
     let Some(value) = value.constant() else {
         let what = format!("{} is computed, and the target takes it from {kind} {number}", meaning(role));
@@ -227,6 +231,9 @@ fn in_setting(
     if stated.is_some_and(|stated| (value - stated).abs() < 1e-9) {
         return Ok(None);
     }
+    // As the machine has it: 10 tenths for a length of one lead.
+    let as_set = |value: f64| (value * whole * 1e6).round() / 1e6;
+    let (value, stated) = (as_set(value), stated.map(as_set));
     let now =
         stated.map_or("its profile does not give it".into(), |stated| format!("its profile says {stated}"));
     let title = &target.dialect().title;

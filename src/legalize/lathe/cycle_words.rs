@@ -27,8 +27,13 @@ use std::sync::Arc;
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let rough = features.role(Role::RoughX) || features.role(Role::RoughZ);
     let apart = |kind: &Kind, role: Role| {
-        let stated = |control| setting(control, kind.cycle, role).and_then(|(_, value)| value);
-        stated(context.source).zip(stated(context.target)).is_some_and(|(ours, theirs)| ours != theirs)
+        let of = |control| setting(control, kind.cycle, role);
+        match (of(context.source), of(context.target)) {
+            (Some((ours, Some(here))), Some((theirs, Some(there)))) => here != there || ours != theirs,
+            // Of one setting nobody knows that it is another; of two nobody knows that they agree.
+            (Some((ours, _)), Some((theirs, _))) => ours != theirs,
+            _ => false,
+        }
     };
     let differs = |kind: &Kind| {
         features.op(kind.cycle)

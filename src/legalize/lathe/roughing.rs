@@ -3,11 +3,12 @@
 //! Law: both leave the allowances on the contour, go as deep each pass, and come back to where they began. What differs is which passes there are:
 //! one control ends along the contour, the other level by level, which may leave steps for the finishing. A person must accept that.
 
+use super::contours::has_valleys;
 use super::settings::takes;
 use crate::assume::Predicate;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
+use crate::dialect::{Control, Question, Setting};
 use crate::ir::{Module, Nc, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
@@ -17,24 +18,23 @@ const CYCLES: [Op; 2] = [Op::RoughTurning, Op::RoughFacing];
 
 /// True where contours are roughed, and the controls do not end that alike.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    CYCLES.iter().any(|op| features.op(*op)) && !context.agree(Question::RoughingEnds)
+    let skips = [false, true].into_iter().any(|valleys| apart(context, valleys));
+    CYCLES.iter().any(|op| features.op(*op)) && (!context.agree(Question::RoughingEnds) || skips)
+}
+
+/// True where one control alone leaves out the pass along such a contour.
+fn apart(context: &Context<'_>, valleys: bool) -> bool {
+    context.source.skips_along(valleys).is_some() != context.target.skips_along(valleys).is_some()
 }
 
 /// Says which roughing ends otherwise.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let along = context.target.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
-    let what = if along {
-        "the target ends this roughing with a pass along the contour, which the source has only with I or K, and takes no I and K: \
-         without them the levels lie otherwise"
-    } else {
-        "the target is not known to end this roughing with a pass along the contour, as the source does: steps may be left for \
-         the finishing tool, up to the depth of a pass"
-    };
     for (index, program) in module.programs.iter().enumerate() {
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
             let Some(op) = nc.ops().find(|op| CYCLES.contains(op)) else { continue };
-            let told = Diagnostic::new(Code::Conditional, stmt.site.span, what)
+            let Some(what) = otherwise(has_valleys(program, nc), context) else { continue };
+            let told = Diagnostic::new(Code::Conditional, stmt.site.span, what.clone())
                 .with_help("run one such cycle in the air or on the screen, and look at its last passes")
                 .assuming(Predicate::Substitute(op))
                 .asked_once();
@@ -42,6 +42,39 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         }
     }
 }
+
+/// In what the target ends the roughing of such a contour otherwise; none where it does not. Of a contour of which nobody knows whether
+/// it has valleys, what is so of either.
+fn otherwise(valleys: Option<bool>, context: &Context<'_>) -> Option<String> {
+    let kinds = valleys.map_or(vec![false, true], |valleys| vec![valleys]);
+    let of = |control: &Control| kinds.iter().find_map(|kind| Some(skip_of(control.skips_along(*kind)?)));
+    let is_apart = kinds.iter().any(|kind| apart(context, *kind));
+    let agree = context.agree(Question::RoughingEnds);
+    match (of(context.source), of(context.target)) {
+        (_, Some(name)) if is_apart => Some(format!(
+            "the target leaves out the pass along the contour at the end of this roughing, by {name}, and the source does not: steps may \
+             be left for the finishing tool, up to the depth of a pass"
+        )),
+        (Some(name), _) if is_apart => Some(format!(
+            "the source leaves out the pass along the contour at the end of this roughing, by {name}, and the target does not"
+        )),
+        _ if agree => None,
+        _ if context.target.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along") => {
+            Some(ALONG.into())
+        }
+        _ => Some(LEVELS.into()),
+    }
+}
+
+/// A setting as people name it.
+fn skip_of(row: &Setting) -> String {
+    row.name.replacen('.', " ", 1)
+}
+
+const ALONG: &str = "the target ends this roughing with a pass along the contour, which the source has only with I or K, and takes no I and K: \
+                     without them the levels lie otherwise";
+const LEVELS: &str = "the target is not known to end this roughing with a pass along the contour, as the source does: steps may be left for \
+                      the finishing tool, up to the depth of a pass";
 
 /// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
 /// that the passes differ.

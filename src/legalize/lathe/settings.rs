@@ -63,9 +63,13 @@ pub fn takes(control: &Control, op: Op, role: Role) -> bool {
 
 /// The setting that stands for a word of an operation, by name, and its number where the profile says it.
 pub fn setting(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f64>)> {
+    // Finishing passes, run-out and angle may stand in one number.
+    let part = super::thread_form::PARTS.contains(&role);
     let written = || {
-        let setup = Kind::of_cycle(op).is_some_and(|kind| takes(control, kind.setup, role));
-        setup || takes(control, op, role)
+        let setup = |kind: &Kind| {
+            takes(control, kind.setup, role) || (part && takes(control, kind.setup, Role::ThreadForm))
+        };
+        Kind::of_cycle(op).is_some_and(setup) || takes(control, op, role)
     };
     // What stands in for a word that is left out is all there is where the control has no word.
     let gives = |row: &&crate::dialect::Setting| {
@@ -73,5 +77,6 @@ pub fn setting(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f6
         stands && row.cycles.contains(&op)
     };
     let row = control.dialect().settings.iter().find(gives)?;
-    Some((&row.name, control.setting(&row.name).and_then(|value| value.parse().ok())))
+    let stated = control.setting(&row.name).and_then(|value| value.parse::<f64>().ok());
+    Some((&row.name, stated.map(|value| value / row.whole())))
 }

@@ -7,7 +7,7 @@ use crate::canon::Role;
 use crate::ir::Expr;
 
 /// The parts of a thread's form, in the order of their digits.
-const PARTS: [Role; 3] = [Role::ThreadFinishes, Role::ThreadRunOut, Role::ThreadAngle];
+pub(super) const PARTS: [Role; 3] = [Role::ThreadFinishes, Role::ThreadRunOut, Role::ThreadAngle];
 
 /// Takes the number apart; false where it is computed or has other digits.
 pub fn apart(values: &mut Vec<(Role, Expr)>) -> bool {

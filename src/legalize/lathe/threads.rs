@@ -25,12 +25,13 @@ pub(super) fn beyond(
     let lengths = [Role::ThreadHeight, Role::ThreadFirst].map(|role| (role, nc.word(role)));
     let least = values.iter().find(|(role, _)| *role == Role::ThreadLeast);
     let least = (Role::ThreadLeast, least.map(|(_, value)| value));
-    let by_form = takes(target, Op::ThreadingSetup, Role::ThreadForm);
+    let counts_finishes = takes(target, Op::ThreadingSetup, Role::ThreadForm)
+        || setting(target, Op::Threading, Role::ThreadFinishes).is_some();
     if nc.word(Role::ThreadStart).is_some() && !takes(target, Op::Threading, Role::ThreadStart) {
         Some((START, "begin the thread at another Z instead: a lead is a turn"))
     } else if !has_angle(target, angle) {
         Some((ANGLE, "give the thread an angle that the target has"))
-    } else if by_form && constant(values, Role::ThreadFinishes).unwrap_or(0.0) < 1.0 {
+    } else if counts_finishes && constant(values, Role::ThreadFinishes).unwrap_or(0.0) < 1.0 {
         Some((UNFINISHED, "give the source an allowance for a finishing pass"))
     } else if lengths.into_iter().chain([least]).any(|(role, value)| {
         counted(target, role) && value.is_some_and(|value| !is_count(value, units, target))

@@ -11,7 +11,9 @@ use crate::dialect::{Control, Question};
 /// True if two controls do not end the roughing of a contour alike.
 pub fn differs(source: &Control, target: &Control) -> bool {
     let ends = |control: &Control| control.behaviour(Question::RoughingEnds).map(|row| row.value.clone());
+    let skips = |control: &Control| [false, true].map(|valleys| control.skips_along(valleys).is_some());
     ends(source).zip(ends(target)).is_some_and(|(ours, theirs)| ours != theirs)
+        || skips(source) != skips(target)
 }
 
 /// Leaves the passes out: what is roughed stands before them.

@@ -57,7 +57,7 @@ pub fn run(
         };
         if valleys { levels.valleys(machine, trace)? } else { levels.steps(machine, trace)? }
     }
-    along_contour(machine, profile, &left, trace)
+    along_contour(machine, profile, &left, valleys, trace)
 }
 
 /// Says what is roughed, ahead of the passes.
@@ -182,9 +182,11 @@ fn along_contour(
     machine: &mut Machine,
     profile: &Profile,
     left: &Allowances,
+    valleys: bool,
     trace: &mut Trace,
 ) -> Result<(), Stop> {
-    let always = machine.rules.roughing_along.ask(trace);
+    let skips = machine.rules.turning.skips_along[usize::from(valleys)];
+    let always = machine.rules.roughing_along.ask(trace) && !skips;
     if !always && left.rough == [0.0; 2] {
         return Ok(());
     }

@@ -8,8 +8,10 @@ use std::collections::BTreeMap;
 /// The settings; lengths in millimetres.
 #[derive(Clone, Debug, Default)]
 pub struct Turning {
-    /// True where a block before that of a cycle sets what it takes: threads of many passes have one.
+    /// True where parameters stand in for what no block says: a control of which a block before that of a cycle may set it.
     pub two_blocks: bool,
+    /// True where threads of many passes have such a block.
+    pub thread_form: bool,
     /// True where the feed counts a turn when power comes on; none if no source says it.
     pub feeds_by_turn: Option<bool>,
     /// True where a move in machine coordinates is a rapid under any interpolation (Z4).
@@ -27,6 +29,8 @@ pub struct Turning {
     /// Depth and retract of roughing.
     pub depth: Option<f64>,
     pub retract: Option<f64>,
+    /// Whether roughing leaves out its pass along a contour: of one without valleys, and of one with them (K9).
+    pub skips_along: [bool; 2],
     /// Retract of pecks.
     pub peck_retract: Option<f64>,
     /// The least depth, the finishing allowance, the run-out in leads and its angle, of threads.
@@ -34,6 +38,8 @@ pub struct Turning {
     pub thread_allowance: Option<f64>,
     pub run_out: Option<f64>,
     pub run_out_angle: Option<f64>,
+    /// Finishing passes of threads.
+    pub thread_finishes: Option<f64>,
     /// The angles that threads of many passes may have, degrees; none if every angle may stand (P3).
     pub thread_angles: Option<Vec<f64>>,
     /// True where the machine's profile names a C axis.
@@ -57,13 +63,15 @@ impl Turning {
             let gives = |row: &&Setting| row.gives == Some(role) || row.otherwise == Some(role);
             let rows = control.dialect().settings.iter().filter(gives);
             let mut rows = rows.filter(|row| row.cycles.iter().any(|op| cycles.contains(op)));
-            rows.find_map(|row| number(&row.name))
+            rows.find_map(|row| number(&row.name).map(|value| value / row.whole()))
         };
         let length = |role: Role, cycles: &[Op]| given(role, cycles).map(|value| value * unit);
         let (rough, pecks) = ([Op::RoughTurning, Op::RoughFacing], [Op::Groove, Op::FaceGroove]);
         let answer = |question| control.behaviour(question).map(|row| row.value.as_str());
+        let stand_in = |row: &Setting| row.otherwise == Some(Role::ThreadLeast);
         Self {
-            two_blocks: control.code_for(Op::ThreadingSetup, &Default::default()).is_some(),
+            two_blocks: control.dialect().settings.iter().any(stand_in),
+            thread_form: control.code_for(Op::ThreadingSetup, &Default::default()).is_some(),
             feeds_by_turn: control
                 .told("lathe.feed")
                 .and_then(|(_, value)| value)
@@ -79,11 +87,13 @@ impl Turning {
             arc_limit: told("arc.limit").map(|value| value * unit),
             depth: length(Role::CutDepth, &rough),
             retract: length(Role::CutRetract, &rough),
+            skips_along: [false, true].map(|valleys| control.skips_along(valleys).is_some()),
             peck_retract: length(Role::CutRetract, &pecks),
             thread_least: length(Role::ThreadLeast, &[Op::Threading]),
             thread_allowance: length(Role::ThreadAllowance, &[Op::Threading]),
             run_out: given(Role::ThreadRunOut, &[Op::Threading]),
             run_out_angle: told("thread.run.out.angle"),
+            thread_finishes: given(Role::ThreadFinishes, &[Op::Threading]),
             thread_angles: answer(Question::ThreadAngles)
                 .filter(|list| !["any", "unknown"].contains(list))
                 .map(|list| list.split('.').filter_map(|angle| angle.parse().ok()).collect()),

@@ -1,5 +1,6 @@
 //! Threads: single ones (M2 to M5), and those of many passes (P1 to P11).
 
+use super::settings::Turning;
 use super::way::Point;
 use super::{EXACT, alarm, sense};
 use crate::canon::{Op, Role};
@@ -126,17 +127,19 @@ pub fn many(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resu
     let motion = machine.motion;
     let a = machine.tool_at();
     let e = machine.end_of_cycle(command, a);
-    let screw = if machine.rules.turning.two_blocks {
-        by_two_blocks(machine, command)?
-    } else {
-        by_one_block(machine, command, trace)?
+    let turning = &machine.rules.turning;
+    let (form, stands_in) = (turning.thread_form, turning.two_blocks && !turning.thread_form);
+    let screw = match form {
+        true => by_two_blocks(machine, command)?,
+        false => by_one_block(machine, command, trace)?,
     };
     let lead = machine.feed;
-    let chamfer = match machine.rules.turning.two_blocks {
+    let chamfer = match form {
         true => {
             let digits = machine.lathe.thread.digits.unwrap_or(0.0);
             Some((((digits / 100.0).floor() % 100.0) / 10.0 * lead, 45.0))
         }
+        false if stands_in && machine.rules.turning.run_out.is_none() => return Err(unset("run-out")),
         false => machine.set_chamfer(lead, trace),
     };
     let lead = Lead { lead, start: command.word(Role::ThreadStart).unwrap_or(0.0), change: 0.0, chamfer };
@@ -207,7 +210,6 @@ const MOST: usize = 10_000;
 fn by_two_blocks(machine: &Machine, command: &Command) -> Result<Screw, Stop> {
     let (unit, form, turning) = (machine.unit(), machine.lathe.thread, &machine.rules.turning);
     let length = |role| command.word(role).map_or(0.0, |value| value * unit);
-    let unset = |what: &str| Stop::unnamed(format!("a thread whose {what} no block and no parameter says"));
     let digits = form.digits.ok_or_else(|| unset("passes and angle"))?;
     let least = form.least.or(turning.thread_least).ok_or_else(|| unset("least depth"))?;
     let allowance =
@@ -232,12 +234,16 @@ fn by_two_blocks(machine: &Machine, command: &Command) -> Result<Screw, Stop> {
     Ok(Screw { height, first, least, allowance, finishes, angle, taper, even: false, both: None })
 }
 
+fn unset(what: &str) -> Stop {
+    Stop::unnamed(format!("a thread whose {what} no block and no parameter says"))
+}
+
 /// P2, P3, P6.
 fn by_one_block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<Screw, Stop> {
     let (unit, turning) = (machine.unit(), &machine.rules.turning);
     let length = |role| command.word(role).map_or(0.0, |value| value * unit);
     let way = command.word(Role::ThreadInfeed);
-    if way.is_none() {
+    if way.is_none() && !turning.two_blocks {
         // A P of another code may be in force (S10).
         trace.doubt("machine:lathe.thread.infeed");
     }
@@ -250,10 +256,58 @@ fn by_one_block(machine: &Machine, command: &Command, trace: &mut Trace) -> Resu
         _ => return Err(Stop::unnamed(format!("a thread cut by P{way}: there are four ways"))),
     };
     let angle = command.word(Role::ThreadAngle).unwrap_or(0.0);
+    let (height, first) = (length(Role::ThreadHeight), length(Role::ThreadFirst));
+    let (least, allowance, finishes) = match turning.two_blocks {
+        true => by_parameters(turning, angle, (height, first))?,
+        false => by_settings(turning, angle, (height, first), trace)?,
+    };
+    Ok(Screw {
+        height,
+        first,
+        least,
+        allowance,
+        finishes,
+        angle,
+        taper: length(Role::Taper),
+        even: way > 2.0,
+        both,
+    })
+}
+
+/// Least depth, allowance and finishing passes that parameters say where no block can, and the alarms of such a control (P1, P3).
+fn by_parameters(
+    turning: &Turning,
+    angle: f64,
+    (height, first): (f64, f64),
+) -> Result<(f64, f64, u32), Stop> {
+    let least = turning.thread_least.ok_or_else(|| unset("least depth"))?;
+    let allowance = turning.thread_allowance.ok_or_else(|| unset("finishing allowance"))?;
+    let finishes = turning.thread_finishes.ok_or_else(|| unset("number of finishing passes"))?;
+    if turning.thread_angles.as_ref().is_some_and(|angles| !angles.contains(&angle)) {
+        return Err(alarm("PS0315", "an angle that no thread of this control has"));
+    }
+    if height <= 0.0 || first <= 0.0 {
+        return Err(alarm("PS0317", "a thread without its height or its first depth"));
+    }
+    if least > height {
+        return Err(alarm("PS0316", "the least depth of the thread is over its height"));
+    }
+    if !(1.0..100.0).contains(&finishes) {
+        return Err(Stop::unnamed("a thread without a finishing pass"));
+    }
+    Ok((least, allowance, finishes as u32))
+}
+
+/// The same from settings, which are 0 where nobody gives them.
+fn by_settings(
+    turning: &Turning,
+    angle: f64,
+    (height, first): (f64, f64),
+    trace: &mut Trace,
+) -> Result<(f64, f64, u32), Stop> {
     if !(0.0..=120.0).contains(&angle) {
         return Err(Stop::unnamed("the angle of the thread is not from 0 to 120 degrees"));
     }
-    let (height, first) = (length(Role::ThreadHeight), length(Role::ThreadFirst));
     if height <= 0.0 || first <= 0.0 {
         return Err(Stop::unnamed("a thread without its height or its first depth"));
     }
@@ -261,17 +315,7 @@ fn by_one_block(machine: &Machine, command: &Command, trace: &mut Trace) -> Resu
         trace.doubt("machine:lathe.thread.settings");
     }
     let allowance = turning.thread_allowance.unwrap_or(0.0);
-    Ok(Screw {
-        height,
-        first,
-        least: turning.thread_least.unwrap_or(0.0),
-        allowance,
-        finishes: u32::from(allowance > 0.0),
-        angle,
-        taper: length(Role::Taper),
-        even: way > 2.0,
-        both,
-    })
+    Ok((turning.thread_least.unwrap_or(0.0), allowance, u32::from(allowance > 0.0)))
 }
 
 impl Machine {
