@@ -293,6 +293,13 @@ impl<'a> Context<'a> {
         faults.iter().any(|fault| span.start <= fault.start && fault.end <= span.end)
     }
 
+    /// True where a place is refused already.
+    pub fn is_refused(&self, program: usize, span: Span) -> bool {
+        let origin = self.origins.get(program).copied().unwrap_or(program) as u32;
+        let mut findings = self.findings.lists.iter().flatten();
+        findings.any(|(at, found)| *at == origin && found.code == Code::NoEquivalent && found.span == span)
+    }
+
     /// Adds findings whose texts are shared already.
     pub fn add_all(&mut self, program: usize, diagnostics: Vec<Diagnostic>) {
         let origin = self.origins.get(program).copied().unwrap_or(program);

@@ -134,9 +134,11 @@ impl Place {
             }
             self.steps = Some(mode == Op::Incremental).filter(|_| !skipped);
         }
-        // A new offset or shift moves the coordinates under the tool.
+        // A new offset or shift moves the coordinates under the tool; an offset that is chosen beside a move counts for it already.
         if !nc.ops().all(is_plain) {
             self.at = At::default();
+        }
+        if !nc.ops().all(|op| is_plain(op) || chooses_offset(op)) {
             return;
         }
         if !nc.names_axis() {
@@ -147,7 +149,7 @@ impl Place {
         }
         match self.passes {
             Some(true) => {}
-            Some(false) if !skipped && nc.ops().all(is_plain) => {
+            Some(false) if !skipped => {
                 // The end of a line by its angle is known along one axis only.
                 if nc.word(Role::LineAngle).is_some() {
                     self.at = At::default();
@@ -202,6 +204,10 @@ fn is_plain(op: Op) -> bool {
             | Op::PolarPlaneOff
             | Op::Cylinder
     );
-    let frame = matches!(op.group(), Group::WorkOffset | Group::Units) || op == Op::TurretIndex;
-    !op.takes_axes() && !elsewhere && !frame
+    !op.takes_axes() && !elsewhere && !chooses_offset(op) && op.group() != Group::Units
+}
+
+/// True for what chooses an offset, before the move of its block.
+fn chooses_offset(op: Op) -> bool {
+    !op.takes_axes() && (op.group() == Group::WorkOffset || op == Op::TurretIndex)
 }

@@ -4,6 +4,7 @@
 //! letters become a mode, a block has words of one kind only, or where the tool stands is known as numbers. Counter-example: `G1 X50. W-2.`
 //! after a call, which no mode can say.
 
+use super::contour_starts::Contours;
 use super::place::Place;
 use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
@@ -121,6 +122,8 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let calls_after_moves = stmts.any(is_modal);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let straight = entered_straight(program);
+        // What a macro after each move does to where cycles begin is not known.
+        let starts = if calls_after_moves { BTreeMap::new() } else { Contours::of(program).starts };
         let (mut mode, mut place) = (None, Place::keeping_level());
         for (block, straight) in program.blocks.iter_mut().zip(straight) {
             if !straight {
@@ -133,7 +136,7 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 if calls_after_moves {
                     place.forget();
                 }
-                place.enter(stmt);
+                enter(&mut place, stmt, &starts);
                 let before = place;
                 place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
@@ -170,12 +173,13 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     changed.push((index, stmt.site.span));
                 }
                 swap(nc, |(whole, step)| (step, whole));
-                if mode != Some(needed) {
+                let written = mode != Some(needed);
+                if written {
                     nc.items.insert(0, NcItem::Op(needed));
                     mode = Some(needed);
                 }
                 // A switch that skips the block leaves the mode as it was, and a macro that runs after it changes it.
-                if stmt.site.skip.is_some() || calls_after_moves {
+                if written && stmt.site.skip.is_some() || calls_after_moves {
                     mode = None;
                 }
             }
@@ -195,6 +199,19 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
     true
+}
+
+/// Comes to a statement: a contour begins where the cycles begin that read it.
+fn enter(place: &mut Place, stmt: &Stmt, starts: &BTreeMap<u32, [Option<f64>; 2]>) {
+    let inside = place.in_contour();
+    place.enter(stmt);
+    let start = stmt.site.sequence.get().and_then(|number| starts.get(&number));
+    match start {
+        Some([x, z]) if !inside && place.in_contour() => place.knows(*x, *z),
+        // The run comes to it by itself, too.
+        Some([x, z]) => place.agrees(*x, *z),
+        None => {}
+    }
 }
 
 fn has_steps(nc: &Nc) -> bool {
