@@ -15,6 +15,7 @@ mod exit_state;
 mod expand;
 mod frame;
 mod holes;
+mod inverse;
 mod lathe;
 mod motion;
 mod offsets;

@@ -5,8 +5,8 @@ use crate::canon::{Op, Role};
 use crate::legalize::cycles::{hole_circles, tap_leads, tapping};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
-    bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, rotations, shaped, shift,
-    short_arcs, unit_agrees, unit_checks, units, word_rounds,
+    bare_arcs, home, increments, inverse_feeds, machine_moves, polar, rapid_once, reference, rotations,
+    shaped, shift, short_arcs, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
@@ -19,6 +19,12 @@ pub(super) const MOVES: &[Pass] = &[
     Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
     Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
+    Pass::reports(
+        "inverse-feeds",
+        "checks that feeds of inverse time are said where they count",
+        inverse_feeds::run,
+    )
+    .when(|c, _| inverse_feeds::concerns(c)),
         .when(set_position::concerns),
     Pass::edits("external", "shifts that share a register on one control are kept apart", external::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),

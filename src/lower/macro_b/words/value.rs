@@ -76,6 +76,12 @@ impl<'a> Lowering<'a> {
         if self.control.machine() == Machine::Lathe && (open || counts == BareLength::Unknown) {
             let message = "no source says what a feed of this lathe counts without a decimal point: write the point, or say \
                            'bare_feed' under [settings] of the machine's profile";
+        if self.inverse {
+            let message =
+                "F without a decimal point counts otherwise under inverse time feed: write the point";
+            self.findings.not_understood(span, message);
+            return Expr::Number(number);
+        }
             self.findings.not_understood(span, message);
             return Expr::Number(number);
         }
