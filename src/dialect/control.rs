@@ -162,6 +162,16 @@ impl Control {
         }
     }
 
+    /// How many parts of one a scale factor without a decimal point counts; none where that is not known.
+    pub fn scale_parts(&self) -> Option<f64> {
+        match self.behaviour(Question::ScaleBare)?.value.as_str() {
+            "units" => Some(1.0),
+            "thousandths" => Some(1e3),
+            "hundred.thousandths" => Some(1e5),
+            _ => None,
+        }
+    }
+
     /// What an argument of a macro call without a decimal point counts, for its letter.
     pub fn bare_argument(&self, letter: char) -> BareLength {
         let row = self.dialect.arguments.iter().find(|row| row.letter == letter);

@@ -204,7 +204,8 @@ questions! {
     RoundPlacesDefault "round.places.default" OneOf(&["unknown", "0", "1", "2", "3", "4", "5"]), "places that the rounding function keeps by default", if "function:round.places";
     FixTowardZero "fix.toward.zero" YES, "FIX (INT) goes toward zero for negative numbers";
     WordRoundsToIncrement "word.rounds.to.increment" YES, "a computed value is rounded to the least increment of its address";
-    ScaleBare "scale.bare" OneOf(&["units", "unknown"]), "what a scale factor without a decimal point counts", if "role:scale";
+    ScaleBare "scale.bare" OneOf(&["units", "thousandths", "hundred.thousandths", "unknown"]), "what a scale factor without a decimal point counts", if "role:scale";
+    ScalePoint "scale.point" YES, "a scale factor may have a decimal point", if "role:scale";
     IntegerWordRounds "integer.word.rounds" YES, "a computed value in a whole-number word is rounded to the nearest";
     WordBareExpression "word.bare.expression" OneOf(&["value", "increments", "unknown"]), "what a computed value without a point counts in a word";
     Atan2Range "atan2.range" OneOf(&["0..360", "-180..180", "none", "unknown"]), "the range of the two-argument arc tangent";
@@ -232,6 +233,7 @@ questions! {
     CycleRunsByDepth "cycle.runs.by.depth" YES, "a block with a new depth or retract plane alone runs the cycle in force";
     CycleStartsSpindle "cycle.starts.spindle" YES, "a drilling cycle starts a spindle that a tool change left standing, and a tap any that stands", if "said";
     CycleTapFeed "cycle.tap.feed" OneOf(&["feed", "lead", "unknown"]), "what the words of a tapping cycle mean: feed and speed, or speed and lead";
+    TapRigid "tap.rigid" OneOf(&["always", "code", "unknown"]), "whether taps are rigid, so that the feed follows the spindle: always, or by a code before them alone", if "said";
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";

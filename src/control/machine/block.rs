@@ -3,7 +3,7 @@
 //! Modes come first, then tool, spindle and coolant as far as they act with the start of the move, then what moves,
 //! then the rest of them, then a stop.
 
-use super::{Command, Machine, auxiliary, lathe, motion, offsets, state, tooling};
+use super::{Command, Machine, auxiliary, lathe, motion, offsets, rigid, state, tooling};
 use crate::canon::{Group, Op, Pause, Role};
 use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, Trace};
@@ -17,6 +17,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     if machine.rules.lathe {
         lathe::check::block(machine, command, trace)?;
     }
+    rigid::enter(machine, command)?;
     state::modes(machine, command, trace);
     let before = auxiliary::Before::of(machine, trace);
     tooling::tool(machine, command, trace);

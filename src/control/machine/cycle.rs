@@ -1,7 +1,7 @@
 //! Drilling cycles: their planes, their repeats, where they run.
 
 use super::command::axis;
-use super::{Command, Machine, expand, lathe};
+use super::{Command, Machine, expand, inverse, lathe};
 use crate::canon::{Op, Role};
 use crate::control::entry::Drilling;
 use crate::control::outcome::Stop;
@@ -121,6 +121,7 @@ pub(super) fn across(command: &Command, along: usize) -> Command {
 /// Drills at the present place.
 pub(super) fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
     let Some(mut cycle) = machine.cycle.clone() else { return Ok(()) };
+    inverse::cycle(machine)?;
     if cycle.without_dwell {
         // The dwell that an earlier cycle was given is none of this one.
         cycle.dwell = 0.0;

@@ -2,6 +2,7 @@
 
 use super::Machine;
 use super::cycle::{Cycle, Planes};
+use super::rigid::Rigid;
 use crate::canon::Op;
 use crate::control::scenario::Axes;
 use crate::control::trace::{EventKind, FeedMode, Position, Spindle, Told, Trace};
@@ -142,12 +143,14 @@ impl Driver<'_> {
         let Planes { r, bottom, .. } = self.planes;
         // A tap by its lead follows the spindle; the feed in force is for the moves after the cycle.
         let in_force = (self.machine.feed, self.machine.feed_mode);
-        let by_turn = self.machine.rules.lathe
-            && self.machine.feed_mode == FeedMode::PerTurn
-            && !self.machine.surface_speed;
+        let by_turn = self.machine.feed_mode == FeedMode::PerTurn && !self.machine.surface_speed;
         let lead = cycle.lead.or(Some(self.machine.feed).filter(|_| by_turn && self.machine.speed > 0.0));
         if let Some(lead) = lead {
             (self.machine.feed, self.machine.feed_mode) = (lead * self.machine.speed, FeedMode::PerMinute);
+        }
+        let rigid = self.machine.rigid == Rigid::Taps;
+        if rigid && self.machine.spindle == Spindle::CounterClockwise && cycle.op != Op::CycleTapLeft {
+            self.turn(Spindle::Clockwise);
         }
         self.feed(bottom);
         let (before, back) = match (self.machine.spindle, cycle.op) {

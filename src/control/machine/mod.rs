@@ -15,10 +15,12 @@ mod exit_state;
 mod expand;
 mod frame;
 mod holes;
+mod inverse;
 mod lathe;
 mod motion;
 mod offsets;
 mod pauses;
+mod rigid;
 mod rounding;
 mod rules;
 mod state;
@@ -73,6 +75,7 @@ pub struct Machine {
     incremental: bool,
     motion: Op,
     cycle: Option<Cycle>,
+    rigid: rigid::Rigid,
     return_to_r: bool,
     plane: Plane,
     feed: f64,
@@ -134,6 +137,7 @@ impl Machine {
             incremental: false,
             motion: Op::Rapid,
             cycle: None,
+            rigid: rigid::Rigid::No,
             return_to_r: false,
             plane: Plane::Xy,
             feed: 0.0,

@@ -2,7 +2,7 @@
 
 use super::command::is_rotary;
 use super::tooling::LostBy;
-use super::{Command, Machine, arc, cycle, holes, lathe};
+use super::{Command, Machine, arc, cycle, holes, inverse, lathe};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
@@ -125,6 +125,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
 
 /// The move of a block, once.
 fn once(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    inverse::check(machine, command)?;
     match machine.motion {
         _ if command.has(Op::RapidOnce) => {
             let to = machine.target(command);

@@ -34,7 +34,7 @@ pub struct Rules {
     pub bracket_copies_vacancy: Answer<bool>,
     pub word_rounds: bool,
     pub integer_word_rounds: Answer<bool>,
-    pub scale_bare: Answer<bool>,
+    pub scale_parts: Answer<f64>,
     pub round_in_address: bool,
     pub goto_forward: Answer<bool>,
     pub return_jumps_here: Answer<bool>,
@@ -103,7 +103,7 @@ impl Rules {
             ),
             bracket_copies_vacancy: yes(control, Question::BracketCopiesVacancy, true),
             word_rounds: control.is(Question::WordRoundsToIncrement),
-            scale_bare: Answer::new(control, Question::ScaleBare, word("units", "unknown"), true),
+            scale_parts: Answer::new(control, Question::ScaleBare, |_| control.scale_parts(), 1.0),
             integer_word_rounds: yes(control, Question::IntegerWordRounds, true),
             round_in_address: control
                 .behaviour(Question::RoundInAddress)

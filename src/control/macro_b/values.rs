@@ -120,7 +120,7 @@ impl<'c> Runner<'c> {
             _ => (self.bare_of(word.letter), self.increment_of(role)),
         };
         if role.is_scale() {
-            self.rules.scale_bare.ask(&mut self.session.trace);
+            return Ok(value / self.rules.scale_parts.ask(&mut self.session.trace));
         }
         let Some(increment) = increment else { return Ok(value) };
         if role == Role::Feed && self.rules.feed_unsure {

@@ -43,6 +43,11 @@ Read the text. If it means the variable, change it at the machine, or write `=` 
 "The block sets how smoothly or how fast the control follows a path: advanced preview, AI contour control, accuracy. Such a mode moves the tool to no other place, beyond the tolerance that the control is set to, and no code of the target means the same. It is left out, and told once a program.
 
 Nothing needs to be done for the shape of the part. Where surface or speed matter, choose the mode of the target by its own codes or settings."
+
+    "0410" NamesDropped Note "names of variables are dropped"
+"The program gives names to variables (SETVN), which the source's control shows beside their values. The target shows no such names, and nothing else reads them. They are left out, and told once a program.
+
+Nothing needs to be done. Tell the operator which register on the target holds what, if somebody looks at the values there: the report lists the registers."
         }
     };
 }

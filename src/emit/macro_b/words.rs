@@ -115,7 +115,7 @@ impl<'p> Emitter<'p> {
             });
             let by_word = || control.word_for(op).is_some_and(|row| nc.word(row.role).is_some());
             if op.is_flow() || (code.is_none() && !by_word()) {
-                self.out.unmapped(format_args!("the operation '{op}' with these words"));
+                self.out.other_words(op);
             }
             codes.push(code);
         }
@@ -224,6 +224,7 @@ impl<'p> Emitter<'p> {
                 let digits = if role == Role::Turret { 4 } else { 6 };
                 self.out.push_str(&format!("{value:0digits$}"));
             }
+            _ if role.is_scale() => self.scale(value),
             _ if has_point(role) => self.out.number(value, true),
             Role::SpeedLimit | Role::Builder => self.out.number(value, false),
             _ if value.fract() == 0.0 => self.out.number(value, false),
@@ -237,6 +238,20 @@ impl<'p> Emitter<'p> {
                 self.out.number(value, true);
             }
             _ => self.out.unmapped(format_args!("a fraction in the word '{role}'")),
+        }
+    }
+
+    /// Writes a scale factor: with a point where the control is known to take one, or nothing else is known.
+    fn scale(&mut self, value: f64) {
+        match self.control.scale_parts().filter(|_| !self.control.is(Question::ScalePoint)) {
+            Some(parts) if (value * parts - (value * parts).round()).abs() < 1e-6 => {
+                self.out.number((value * parts).round(), false);
+            }
+            Some(parts) => {
+                self.out
+                    .unmapped(format_args!("the scale factor {value}, which counts parts of {parts} here"));
+            }
+            None => self.out.number(value, true),
         }
     }
 

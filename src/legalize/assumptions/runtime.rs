@@ -6,7 +6,7 @@
 
 use crate::canon::{Func, Group, Op, Pause, Role, Running};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Side, matters};
+use crate::dialect::{Control, Machine, Question, Side, matters};
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
 use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, StmtKind, TermKind};
@@ -29,10 +29,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let cycles = context.features.any_op(Op::is_cycle);
     let starts =
         context.source.is(Question::CycleStartsSpindle) && !context.target.is(Question::CycleStartsSpindle);
+    // Rigid taps by a code turn the spindle themselves too.
+    let taps = context.features.op(Op::RigidTaps)
+        && context.target.machine() == Machine::Mill
+        && !context.target.is(Question::CycleStartsSpindle);
     let standing = Standing::of(context.source);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     for (index, program) in module.programs.iter().enumerate() {
-        let stood = (cycles && starts).then(|| solve(&standing, program, &Cfg::of(program)));
+        let stood = (cycles && (starts || taps)).then(|| solve(&standing, program, &Cfg::of(program)));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
             let mut stands = stood.as_ref().and_then(|stood| stood.at(id)).is_some_and(|stands| *stands);
@@ -50,12 +54,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         both(context, index, span, Question::CyclePlanesFrozen);
                     }
                     arc(nc, index, span, context);
-                    if let Some(state) = state.as_ref().filter(|_| starts)
+                    if let Some(state) =
+                        state.as_ref().filter(|state| starts || taps && is_tapping(nc, state))
                         && turned_by_cycle(nc, stands, state)
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
                         stands = false;
-                    } else if let Some(state) = state.as_ref().filter(|_| starts)
+                    } else if let Some(state) =
+                        state.as_ref().filter(|state| starts || taps && is_tapping(nc, state))
                         && taps_unseen(nc, state)
                     {
                         context.add_once(
@@ -130,7 +136,7 @@ fn stored_place(context: &mut Context<'_>, index: usize, span: Span) {
     }
 }
 
-const STANDS: &str = "the spindle stands here, and the source's drilling cycle starts it by itself; the target's does not: write M3 or \
+const STANDS: &str = "the spindle stands here, and the source's cycle starts it by itself; the target's does not: write M3 or \
      M4 before the cycle";
 
 /// Whether a tool change, an orientation or a stop has ended the turning of the spindle on some way to a place.
@@ -177,6 +183,11 @@ impl Standing {
 
 const MAY_STAND: &str = "it is not known here that the spindle turns, and the source's tap starts it by itself; the target's does not: \
      write M3 or M4 before it";
+
+/// True where a block begins a tap, or one is in force.
+fn is_tapping(nc: &Nc, before: &Modal) -> bool {
+    nc.ops().find(|op| op.is_cycle()).or(before.op(Group::Cycle)).is_some_and(Op::is_tap)
+}
 
 /// True where a block begins a tap, and nothing has said whether the spindle turns.
 fn taps_unseen(nc: &Nc, before: &Modal) -> bool {

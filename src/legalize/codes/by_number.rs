@@ -61,7 +61,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let (code, what) = match finding {
             Finding::Other(code) => {
                 let note = note(code, context.source);
-                (Code::NoEquivalent, format!("{code}{note} may mean something else on the target"))
+                let title = &context.source.dialect().title;
+                let what = match makers_own(code, context.source) {
+                    Some(kind) => {
+                        format!("{code}{note} is {kind} of the {title} that has no equal on the target")
+                    }
+                    None => format!("{code}{note} may mean something else on the target"),
+                };
+                (Code::NoEquivalent, what)
             }
             Finding::Read(code) => {
                 let what = format!(
@@ -85,6 +92,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             }
         };
         let help = match finding {
+            Finding::Other(code) if makers_own(code, context.source).is_some() => Some(instead(code)),
             Finding::Other(code) => Some(format!(
                 "if the machine's builder made {code}, say in the source's profile what becomes of it: [[site]] with code, a \
                  text, and name (in both profiles), target or do"
@@ -175,6 +183,31 @@ fn note(code: &str, source: &Control) -> String {
     let row = source.dialect().codes.iter().find(|row| row.code == code);
     let note = row.and_then(|row| row.origin.note.as_deref());
     note.map_or(String::new(), |note| format!(" ({note})"))
+}
+
+/// What kind of thing a code is that the maker of the control gave it, and not the machine's builder.
+fn makers_own(code: &str, source: &Control) -> Option<&'static str> {
+    let row = source.dialect().codes.iter().find(|row| row.code == code)?;
+    match row.op {
+        Op::CycleOther => Some("a cycle"),
+        Op::ProbeOther => Some("a code for measuring"),
+        Op::MachineSpecific if code.starts_with('G') => Some("a code"),
+        Op::MachineSpecific => Some("a function"),
+        _ => None,
+    }
+}
+
+/// What a person can do about such a code.
+fn instead(code: &str) -> String {
+    let profile = "say in the source's profile what becomes of it: [[site]] with code, a text, and name (in both \
+                   profiles), target or do";
+    if code.starts_with('G') {
+        format!(
+            "have your CAM write what {code} does as moves, or write them by hand, and convert those; or {profile}"
+        )
+    } else {
+        format!("take {code} out if the part does not need it; or {profile}")
+    }
 }
 
 /// The codes that a modal variable may hold: those of the group that its number stands for.

@@ -8,6 +8,8 @@ pub(in crate::legalize) mod cycle_words;
 pub(in crate::legalize) mod dwell;
 pub(in crate::legalize) mod hole_circles;
 pub(in crate::legalize) mod hole_moves;
+pub(in crate::legalize) mod rigid_taps;
 pub(in crate::legalize) mod stored_places;
 pub(in crate::legalize) mod tap_leads;
 pub(in crate::legalize) mod tapping;
+pub(in crate::legalize) mod turn_feeds;

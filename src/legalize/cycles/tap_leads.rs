@@ -105,13 +105,13 @@ fn give_lead(nc: &mut Nc, speed: Speed, feed: Option<f64>, mode: Option<Op>) -> 
 
 /// The speed of the spindle, as the last word has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Speed {
+pub(super) enum Speed {
     Known(f64),
     Unknown,
 }
 
 impl Speed {
-    fn step(&mut self, stmt: &Stmt) {
+    pub(super) fn step(&mut self, stmt: &Stmt) {
         let StmtKind::Nc(nc) = &stmt.kind else {
             if matches!(stmt.kind, StmtKind::ModalCall(_)) {
                 *self = Self::Unknown;
@@ -133,7 +133,7 @@ impl Lattice for Speed {
 }
 
 /// The speed at every block of a library: a program that is called begins with that of its callers.
-struct Speeds;
+pub(super) struct Speeds;
 
 impl Follow for Speeds {
     type Known = Speed;

@@ -3,6 +3,7 @@
 pub(in crate::legalize) mod bare_arcs;
 pub(in crate::legalize) mod home;
 pub(in crate::legalize) mod increments;
+pub(in crate::legalize) mod inverse_feeds;
 pub(in crate::legalize) mod joined;
 pub(in crate::legalize) mod machine_moves;
 mod mains;

@@ -29,6 +29,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             {
                 mirror(nc, index, span, context);
             }
+            if stmt.kind.nc().is_some_and(scales) && context.target.scale_parts().is_none() {
+                context.rests_on_target(index, span, Question::ScalePoint);
+            }
         }
     }
     let shapes = [(Op::RotateOn, Op::RotateOff), (Op::ScaleOn, Op::ScaleOff), (Op::MirrorOn, Op::MirrorOff)];
@@ -55,6 +58,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.rests_on_target(index, span, question);
         }
     }
+}
+
+/// True for a block that begins scaling by a factor of its own.
+fn scales(nc: &Nc) -> bool {
+    let factor = |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_scale());
+    nc.has(Op::ScaleOn) && nc.items.iter().any(factor)
 }
 
 /// True where both controls are one, or are known to do the same.

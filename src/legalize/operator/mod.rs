@@ -10,3 +10,4 @@ pub(in crate::legalize) mod questions;
 pub(in crate::legalize) mod renamed;
 mod rounded;
 pub(in crate::legalize) mod shown_stops;
+pub(in crate::legalize) mod variable_names;

@@ -21,7 +21,7 @@ use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{joined, start};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
-use crate::legalize::operator::{formatted, omitted, shown_stops};
+use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, modal_reads, output_codes, output_states, probe_points, signals,
     state, subscript_chains, timers, touch_points, vacant_writes,
@@ -161,6 +161,8 @@ const STRUCTURE: &[Pass] = &[
     // First of all: what only output reads is no matter of the conversion.
     Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
         .when(omitted::concerns),
+    Pass::edits("variable-names", "names of variables go where the target shows none", variable_names::run)
+        .when(variable_names::concerns),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
     Pass::edits(

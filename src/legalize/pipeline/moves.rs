@@ -1,12 +1,13 @@
 //! The passes of moves, coordinates and units, in the order they run in.
 
 use super::Pass;
+use super::lathe::is_mill;
 use crate::canon::{Op, Role};
-use crate::legalize::cycles::{hole_circles, tap_leads, tapping};
+use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn_feeds};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
-    bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, rotations, shaped, shift,
-    short_arcs, unit_agrees, unit_checks, units, word_rounds,
+    bare_arcs, home, increments, inverse_feeds, machine_moves, polar, rapid_once, reference, rotations,
+    shaped, shift, short_arcs, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
@@ -18,6 +19,12 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
     Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
+    Pass::reports(
+        "inverse-feeds",
+        "checks that feeds of inverse time are said where they count",
+        inverse_feeds::run,
+    )
+    .when(|c, _| inverse_feeds::concerns(c)),
     Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
         .when(set_position::concerns),
     Pass::edits("external", "shifts that share a register on one control are kept apart", external::run)
@@ -73,6 +80,14 @@ pub(super) const MOVES: &[Pass] = &[
     )
     .when(kept_radius::concerns)
     .needs(&["length-radius"]),
+    Pass::edits(
+        "rigid-taps",
+        "the code for rigid taps goes where all taps are rigid, and stands where they are so by it alone",
+        rigid_taps::run,
+    )
+    .when(|c, context| is_mill(context) && rigid_taps::concerns(c, context)),
+    Pass::edits("turn-feeds", "taps in feed per turn feed per minute", turn_feeds::run)
+        .when(|c, context| is_mill(context) && turn_feeds::concerns(c, context)),
     Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),
     Pass::rewrites("tap-leads", "taps by feed get a lead", tap_leads::run).when(tap_leads::concerns),
     Pass::rewrites("reference", "returns to the reference position name their axes", reference::run)

@@ -54,6 +54,8 @@ pub struct Lowering<'a> {
     pub signed: bool,
     /// True while the look-ahead is limited, as the text has it.
     pub lookahead_limited: bool,
+    /// True while feeds count inverse time, as the text has it.
+    pub inverse: bool,
 }
 
 /// A loop that has begun.
@@ -111,6 +113,7 @@ impl<'a> Lowering<'a> {
             aliased,
             signed: false,
             lookahead_limited: false,
+            inverse: false,
         }
     }
 

@@ -56,6 +56,9 @@ impl<'a> Lowering<'a> {
             return self.builder.push(StmtKind::Comment, site.clone());
         };
         self.check_machine(words, &codes);
+        if let Some((_, row)) = codes.iter().rev().find(|(_, row)| row.op.group() == Group::FeedMode) {
+            self.inverse = row.op == Op::FeedInverse;
+        }
         let mut nc = Nc { items: Vec::with_capacity(words.len() + 1) };
         let mut seen = Seen::default();
         let mut next = codes.iter();

@@ -2,7 +2,7 @@
 
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{BareLength, CodeMeaning, Machine, Question};
+use crate::dialect::{BareLength, CodeMeaning, Machine, Question, Side};
 use crate::ir::{BinOp, Expr};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::expressions::{At, is_constant};
@@ -38,11 +38,17 @@ impl<'a> Lowering<'a> {
         }
         let counted = role.is_length() || role.is_angle();
         let bare = role.is_scale() && !point && number != 0.0;
-        if bare && self.findings.behaviour(Question::ScaleBare, value.span).is_none() {
-            let message = "a setting of the control says what a scale factor without a decimal point \
-                           means: write the point";
-            self.findings.not_understood(value.span, message);
-            return None;
+        if bare {
+            self.findings.behaviour(Question::ScaleBare, value.span);
+            let Some(parts) = self.control.scale_parts() else {
+                let message =
+                    "a setting of the control says what a scale factor without a decimal point means";
+                let help = self.control.to_settle(Question::ScaleBare.fact(), Side::Source);
+                let found = Diagnostic::new(Code::NotUnderstood, value.span, message);
+                self.findings.add(found.with_help(help));
+                return None;
+            };
+            return Some((role, Expr::Number(number / parts)));
         }
         if point || number == 0.0 || !(counted || matches!(role, Role::Feed | Role::Lead)) {
             return Some((role, Expr::Number(number)));
@@ -70,6 +76,12 @@ impl<'a> Lowering<'a> {
 
     /// A feed's number without a point: what is said of lengths may leave it open.
     fn bare_feed(&mut self, number: f64, span: Span) -> Expr {
+        if self.inverse {
+            let message =
+                "F without a decimal point counts otherwise under inverse time feed: write the point";
+            self.findings.not_understood(span, message);
+            return Expr::Number(number);
+        }
         let counts = self.control.bare_feed();
         let open = self.control.feed_is_open();
         // It may count otherwise in feed a turn than in feed a minute: too much to take as written.

@@ -1,0 +1,52 @@
+//! Taps that a code of their own makes rigid: the code stands in the block of the tap, or before it.
+//!
+//! Between the two an axis that moves, and a speed, are alarms. A rigid tap turns as its cycle says, whatever the spindle
+//! did before.
+
+use super::{Command, Machine};
+use crate::canon::{Group, Op, Role};
+use crate::control::outcome::Stop;
+
+/// How far a rigid tap is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Rigid {
+    /// Nothing asks for one.
+    #[default]
+    No,
+    /// The code stood, and its tap is to come.
+    Asked,
+    /// The tapping cycle in force is rigid.
+    Taps,
+}
+
+/// Takes what a block says of rigid taps, before it moves.
+pub(super) fn enter(machine: &mut Machine, command: &Command) -> Result<(), Stop> {
+    if machine.rules.lathe || machine.rigid == Rigid::No && !command.has(Op::RigidTaps) {
+        return Ok(());
+    }
+    let taps = command.ops.iter().copied().any(Op::is_tap);
+    let asked = machine.rigid == Rigid::Asked;
+    if taps && (asked || command.has(Op::RigidTaps)) {
+        let speed = command.word(Role::Speed).unwrap_or(machine.speed);
+        if speed <= 0.0 {
+            return Err(Stop::unnamed("a rigid tap without a speed"));
+        }
+        machine.rigid = Rigid::Taps;
+        return Ok(());
+    }
+    if command.has(Op::RigidTaps) || asked {
+        if command.has_axes() {
+            return Err(Stop::unnamed("an axis moves between the code for a rigid tap and the tap"));
+        }
+        if asked && command.word(Role::Speed).is_some() {
+            return Err(Stop::unnamed("a speed stands between the code for a rigid tap and the tap"));
+        }
+        machine.rigid = Rigid::Asked;
+        return Ok(());
+    }
+    let ends = |op: &Op| matches!(op.group(), Group::Cycle | Group::Motion);
+    if command.ops.iter().any(ends) {
+        machine.rigid = Rigid::No;
+    }
+    Ok(())
+}

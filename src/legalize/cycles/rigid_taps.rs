@@ -1,0 +1,149 @@
+//! Rigid taps: by a code of their own on one control, always on another.
+//!
+//! Law: a code before a tap that makes it rigid goes where all taps of the target are rigid, and its speed stays; it is
+//! written before each tap where the target's taps are rigid only by it. Side conditions: the tap is the next thing that
+//! moves, and nothing turns the spindle between; the spindle does not turn to the left before a right-hand tap.
+//! Counter-example: a tap without the code on a control that has it feeds beside a spindle that follows nothing, and a
+//! rigid holder takes up no difference.
+
+use super::tap_leads::{Speed, Speeds};
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question};
+use crate::ir::analysis::over_calls::OverCalls;
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
+use std::collections::BTreeMap;
+
+/// True if there are taps, and one of the two controls has more to say of rigid ones than the other.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let taps = features.op(Op::RigidTaps) || always(context.source) && features.any_op(Op::is_tap);
+    taps && !always(context.target) || features.op(Op::RigidTaps)
+}
+
+fn always(control: &Control) -> bool {
+    control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always")
+}
+
+fn by_code(control: &Control) -> bool {
+    control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "code")
+        && control.code_for(Op::RigidTaps, &BTreeMap::new()).is_some()
+}
+
+/// Takes the code away, or writes it.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let facts = context.modal_facts(module);
+    let speeds = OverCalls::of(module, &Speeds);
+    let keeps = context.target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some();
+    let (all, writes) = (always(context.source), by_code(context.target));
+    let mut changed = false;
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut found = Vec::new();
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let id = BlockId(at as u32);
+            let mut state = facts.at(index, id);
+            found.extend(misplaced(block, state.clone()));
+            let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
+            for mut stmt in std::mem::take(&mut block.stmts) {
+                state.step(&stmt);
+                speed.step(&stmt);
+                let rigid = stmt.kind.has_op(Op::RigidTaps);
+                let taps = stmt.kind.nc().is_some_and(|nc| nc.ops().any(Op::is_tap));
+                if (rigid || all && taps) && !always(context.target) {
+                    context.rests_on_target(index, stmt.site.span, Question::TapRigid);
+                }
+                if rigid && !keeps {
+                    changed = true;
+                    take(&mut stmt);
+                }
+                if all && taps && writes {
+                    changed = true;
+                    match speed {
+                        Speed::Known(speed) => block.stmts.push(code(speed, &stmt)),
+                        Speed::Unknown => found.push((stmt.site.span, SPEED)),
+                    }
+                }
+                block.stmts.push(stmt);
+            }
+        }
+        for (span, (what, help)) in found {
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+        }
+    }
+    changed
+}
+
+type Told = (&'static str, &'static str);
+
+const SPEED: Told = (
+    "the code for a rigid tap takes the speed of the spindle, which is not known here, or is not the same for all who \
+     call this program",
+    "write S before the tap in this program",
+);
+
+const MOVES: Told = (
+    "between the code for a rigid tap and the tap stands a move or a speed, at which the source's control stops with an \
+     alarm (PS0203, PS0204)",
+    "write the code right before the block of the tap, or in it",
+);
+
+const TURNS: Told = (
+    "between the code for a rigid tap and the tap stands a code that turns or stops the spindle; what the tap does then is \
+     up to the machine's builder",
+    "write the spindle's code before the one for the rigid tap",
+);
+
+const LEFT: Told = (
+    "the spindle turns to the left here, and the rigid tap is right-handed",
+    "write M5 before the code for the rigid tap",
+);
+
+/// The places where what stands behind the code for a rigid tap is no tap that it could make rigid.
+fn misplaced(block: &Block, mut state: Modal) -> Vec<(crate::text::Span, Told)> {
+    let mut found = Vec::new();
+    let mut waits = false;
+    for stmt in &block.stmts {
+        if let StmtKind::Nc(nc) = &stmt.kind {
+            let taps = nc.ops().any(Op::is_tap);
+            let rigid = nc.has(Op::RigidTaps);
+            let left = state.op(Group::Spindle) == Some(Op::SpindleCcw);
+            let told = if (waits || rigid) && nc.ops().any(|op| op.group() == Group::Spindle) {
+                Some(TURNS)
+            } else if (waits && !taps && (goes(nc) || nc.word(Role::Speed).is_some()))
+                || rigid && !taps && goes(nc)
+            {
+                Some(MOVES)
+            } else if (waits || rigid) && taps && left && !nc.has(Op::CycleTapLeft) {
+                Some(LEFT)
+            } else {
+                None
+            };
+            waits = (waits || rigid) && !taps && told.is_none();
+            found.extend(told.map(|told| (stmt.site.span, told)));
+        }
+        state.step(stmt);
+    }
+    found
+}
+
+/// True where an axis word stands in a block.
+fn goes(nc: &Nc) -> bool {
+    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_axis()))
+}
+
+/// Takes the code out of its block; the speed beside it stays.
+fn take(stmt: &mut Stmt) {
+    let StmtKind::Nc(nc) = &mut stmt.kind else { return };
+    nc.items.retain(|item| *item != NcItem::Op(Op::RigidTaps));
+    if nc.items.is_empty() {
+        stmt.kind = StmtKind::Comment;
+    }
+}
+
+/// The code with its speed, for a block of its own before a tap.
+fn code(speed: f64, tap: &Stmt) -> Stmt {
+    let items = vec![NcItem::Op(Op::RigidTaps), NcItem::Word(Role::Speed, Expr::Number(speed))];
+    let site = SourceInfo { span: tap.site.span, skip: tap.site.skip, ..SourceInfo::default() };
+    Stmt { kind: StmtKind::Nc(Nc { items }), site }
+}
