@@ -185,7 +185,7 @@ fn fanuc_system_variables_are_those_of_the_manual() {
     holds(&mill, "#", Some(3002), Sys::TimerHours, &[]);
     holds(&mill, "#", Some(3003), Sys::SingleBlock, &[]);
     holds(&mill, "#", Some(3006), Sys::StopMessage, &[]);
-    holds(&mill, "#", Some(3011), Sys::Date, &[]);
+    holds(&mill, "#", Some(3011), Sys::Date, &[]); // 20190503
     holds(&mill, "#", Some(3012), Sys::Time, &[]);
     holds(&mill, "#", Some(3901), Sys::PartsMade, &[]);
     holds(&mill, "#", Some(4001), Sys::Modal, &[1]);

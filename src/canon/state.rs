@@ -110,6 +110,8 @@ super::vocabulary! {
         Clock = "timer.other",
         /// Date, as yyyymmdd.
         Date = "date",
+        /// Date, as yymmdd: the year is counted from 2000.
+        ShortDate = "date.short",
         /// Time of day, as hhmmss.
         Time = "time",
         /// Single-block and auxiliary-function control.

@@ -137,6 +137,8 @@ pub struct SystemVariable {
     /// `r`, `w` or `rw`.
     #[serde(default = "rw")]
     pub access: String,
+    /// The largest number that it may be set to, where that is known.
+    pub most: Option<f64>,
     /// Constant subscripts that come before those above: the axis of `AX` is 1.
     #[serde(default)]
     pub fixed: Vec<u32>,

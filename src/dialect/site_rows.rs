@@ -236,6 +236,7 @@ fn state_of(run: &VariableRun, number: u32, site: &SiteCode) -> SystemVariable {
         subscripts: vec![Subscript { from: number, count: 1, step: 1, axis: false }],
         array: false,
         access: "rw".into(),
+        most: None,
         fixed: Vec::new(),
         after: Vec::new(),
         machine: None,

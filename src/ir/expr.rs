@@ -191,3 +191,9 @@ impl Expr {
         }
     }
 }
+
+/// True for a number with more than three places: an increment of lengths is a thousandth of a millimetre.
+pub fn is_finer_than_words(number: f64) -> bool {
+    let thousandths = number.abs() * 1000.0;
+    (thousandths - thousandths.round()).abs() > 1e-6
+}

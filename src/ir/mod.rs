@@ -66,7 +66,7 @@ mod var;
 mod walk;
 
 pub use build::Builder;
-pub use expr::{BinOp, Cond, Expr, Relation};
+pub use expr::{BinOp, Cond, Expr, Relation, is_finer_than_words};
 pub use stmt::{
     Argument, Bank, BlockNumber, Call, Callee, Comment, Nc, NcItem, OutputPart, Place, PrintPart, SourceInfo,
     Stmt, StmtKind, TermKind, Terminator,

@@ -11,7 +11,7 @@
 
 use super::pass::{Level, Library, Pass};
 use crate::ir::eval::{AtanRange, Memory, eval};
-use crate::ir::{Class, Expr, Place, Program, SourceInfo, Stmt, StmtKind, Var};
+use crate::ir::{Class, Expr, Place, Program, SourceInfo, Stmt, StmtKind, Var, is_finer_than_words};
 
 /// The pass.
 pub struct Fold;
@@ -28,7 +28,8 @@ impl Pass for Fold {
         for block in &mut program.blocks {
             for stmt in &mut block.stmts {
                 if level >= Level::O2 || is_introduced(stmt) {
-                    stmt.kind.exprs_mut(&mut fold);
+                    let is_source = matches!(stmt.kind, StmtKind::Nc(_)) && !is_introduced(stmt);
+                    stmt.kind.exprs_mut(&mut |e| if is_source { fold_word(e) } else { fold(e) });
                 }
             }
             if level >= Level::O2 || block.term.site == SourceInfo::default() {
@@ -43,6 +44,16 @@ fn is_introduced(stmt: &Stmt) -> bool {
     let temp = |target: &Place| matches!(target, Place::Var(Var { class: Class::Temp, .. }));
     stmt.site == SourceInfo::default()
         || matches!(&stmt.kind, StmtKind::Assign { target, .. } if temp(target))
+}
+
+/// Folds the operations in a word of the source. What a control computes for it is rounded, and a number that is written with so many places
+/// may be read in another way, so the last operation stays where the number would have more than an increment.
+fn fold_word(e: &mut Expr) {
+    let was = e.clone();
+    fold(e);
+    if *e != was && matches!(e, Expr::Number(number) if is_finer_than_words(*number)) {
+        *e = was;
+    }
 }
 
 /// Folds the operations of an expression, innermost first.

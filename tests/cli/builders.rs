@@ -108,3 +108,18 @@ fn a_code_that_no_profile_knows_names_the_key() {
     let said = format!("{}{}", known.out, known.err);
     assert!(said.contains("name = \"chuck.air.on\"") && said.contains("do = "), "{said}");
 }
+
+/// It is asked once for the library (docs/builders-codes.md): whoever wrote the profile has decided it.
+#[test]
+fn what_the_profile_leaves_out_sends_no_program_to_review() {
+    let site =
+        |code: &str, what: &str| format!("[[site]]\ncode = \"{code}\"\ntext = \"{code}\"\ndo = \"{what}\"\n");
+    let profile =
+        format!("dialect = \"fanuc\"\nunits = \"metric\"\n{}{}", site("M14", "omit"), site("M15", "stop"));
+    let program = PROGRAM.replace(" P3", "");
+    let shop = Shop::with(&[("a.nc", &program), ("f.toml", &profile)]);
+    let run = shop.run("convert a.nc --from fanuc --to haas --machine f.toml --out there");
+    let told = format!("{}{}", run.out, run.err);
+    assert!(told.contains("1 converted") && !told.contains("MG0802"), "{told}");
+    assert!(told.contains("M14 (M14) is left out") && told.contains("M15 (M15) is a stop"), "{told}");
+}

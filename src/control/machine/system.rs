@@ -132,6 +132,7 @@ impl Machine {
             Sys::TimerHours => (self.clock - self.timer_hours_from) / 3_600_000.0,
             Sys::CycleSeconds => self.clock / 1000.0,
             Sys::Date => self.date,
+            Sys::ShortDate => self.date % 1_000_000.0,
             Sys::Time => self.time,
             Sys::SpindleActual => {
                 if matches!(self.spindle, Spindle::Clockwise | Spindle::CounterClockwise) {

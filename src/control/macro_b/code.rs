@@ -183,6 +183,8 @@ pub struct System {
     pub subscripts: Vec<u32>,
     pub readable: bool,
     pub writable: bool,
+    /// The largest number that it is known to take.
+    pub most: Option<f64>,
     /// Its fact, where no source confirms it.
     pub unsure: Option<String>,
 }

@@ -182,9 +182,10 @@ impl<'c> Runner<'c> {
                     command.words.push((role, value));
                 }
                 None if flow => {}
+                // The code is another one without it: `G5.1 Q1`.
+                None if picks_code(self, meaning, word.letter) => {}
                 // A lathe does nothing of which nobody knows what it does. P beside an M code is its builder's: which spindle.
                 None if self.session.machine.is_lathe()
-                    && !picks_code(self, meaning, word.letter)
                     && !(word.letter == 'P' && meaning.codes.iter().any(|code| code.letter == 'M')) =>
                 {
                     let text = format!("the emulated lathe knows no {} here", word.letter);

@@ -179,6 +179,7 @@ pub fn numbered(control: &Control, number: u32) -> Var {
             subscripts,
             readable: row.access != "w",
             writable: row.access != "r",
+            most: row.most,
             unsure: (!row.origin.is_settled()).then(|| row.fact()),
         }));
     }

@@ -25,6 +25,10 @@ impl Runner<'_> {
                 Part::Text(piece) => text.push_str(piece),
                 Part::Value { value, whole, fraction } => {
                     let value = self.eval(value)?.unwrap_or(0.0);
+                    let (value, is_half) = half_away(value, *fraction);
+                    if is_half {
+                        self.session.trace.doubt("machine:output.half");
+                    }
                     let places = (*fraction).min(20) as usize;
                     let width = (*whole).min(20) as usize + if places > 0 { places + 1 } else { 0 };
                     // Writing to a string does not fail.
@@ -35,4 +39,13 @@ impl Runner<'_> {
         self.session.trace.push(EventKind::Output { text });
         Ok(())
     }
+}
+
+/// A number that is written with so many places, rounded to them, and true for a half: it goes away from 0, and not to the
+/// even neighbour as formatting has it.
+fn half_away(value: f64, places: u32) -> (f64, bool) {
+    let scale = 10f64.powi(places.min(15) as i32);
+    let scaled = value * scale;
+    let rounded = scaled.round() / scale;
+    if rounded.is_finite() { (rounded, scaled.fract().abs() == 0.5) } else { (value, false) }
 }

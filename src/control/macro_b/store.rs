@@ -145,6 +145,9 @@ impl Runner<'_> {
             return Err(self.no_variable(system.number));
         }
         let value = value.unwrap_or(0.0);
+        if system.most.is_some_and(|most| !(0.0..=most).contains(&value)) {
+            self.session.trace.doubt("machine:state.larger");
+        }
         if matches!(system.state, Sys::Alarm | Sys::StopMessage) {
             // Reached by a computed number, so that no text is known.
             let number = format!("{}", self.rules.alarm_offset + value);

@@ -117,6 +117,10 @@ impl Emitter<'_> {
 
     /// A negative constant is added by taking its opposite away, which rounds alike.
     fn binary(&mut self, op: BinOp, [a, b]: &[Expr; 2], spot: Spot) {
+        // A number in brackets, which the control rounds as what it computes.
+        if let (BinOp::Add, Expr::Number(_), Expr::Number(0.0)) = (op, a, b) {
+            return self.expression(a, spot);
+        }
         if let (BinOp::Add | BinOp::Sub, Expr::Number(number)) = (op, b)
             && number.is_sign_negative()
         {

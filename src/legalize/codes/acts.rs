@@ -5,6 +5,7 @@
 //! each of these, once for all programs. Side condition: the target's code takes each word that stands beside the source's.
 //! Counter-example: `M14 P5` where P is a level, and `M88` of the other machine, which knows no levels.
 
+use crate::assume::Predicate;
 use crate::canon::{Act, Auxiliary, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{SiteCode, Without};
@@ -131,7 +132,8 @@ fn stands_for(
         }
     };
     // Once for the library: the profile says it, and no program does.
-    context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()).asked_once());
+    let told = Diagnostic::new(Code::Conditional, span, what.clone()).asked_once();
+    context.add_once(index, &what, told.assuming(Predicate::Substitute(Op::Act)));
     kind
 }
 

@@ -1,7 +1,7 @@
 //! Codes known by their number only: computed ones, and those of a machine's builder.
 //!
 //! Law: a number means the same on both controls where both tables give it the same operation with the same fixed
-//! operands. Every number that the value may be is looked up; where that set is not known, the code is a
+//! operands. Every number that the value may be is looked up, those of a loop's counter too; where that set is not known, the code is a
 //! condition that a reviewer must accept where both controls number their codes by one scheme, else an error. So is a code that
 //! the program may have found in force, which only one that runs before it can have put there. A computed code
 //! is a whole number: where both controls round it, what they round it to is looked up.
@@ -11,7 +11,7 @@ use crate::assume::Predicate;
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::analysis::{Assigned, Constant};
+use crate::ir::analysis::{Assigned, Constant, Ranges, Values};
 use crate::ir::{BlockId, Expr, Module, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Feature;
@@ -32,12 +32,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             continue;
         }
         let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
+        let ranges = LazyCell::new(|| Ranges::of_constants_and_codes(program, &summaries));
         for (id, block) in program.ids().zip(&program.blocks) {
             for (at, stmt) in block.stmts.iter().enumerate() {
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
                 for item in &nc.items {
                     if let NcItem::Code(letter, value) = item {
-                        let mut numbers = numbers(value, &assigned, id, at, context.source);
+                        let listed = numbers(value, &assigned, id, at, context.source);
+                        let mut numbers = listed.or_else(|| counted(&ranges.at(id, at, value)));
                         if rounds && value.constant().is_none() {
                             numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
                         }
@@ -176,6 +178,18 @@ pub(in crate::legalize) fn numbers<'p>(
         }
     }
     Some(numbers)
+}
+
+/// Numbers of a loop's counter, at the most.
+const MOST_COUNTED: f64 = 100.0;
+
+/// The whole numbers between two bounds, as a loop counts through them; none where they are too many or fractions.
+fn counted(values: &Values) -> Option<Vec<Number>> {
+    let (low, high) =
+        values.bounds().filter(|(low, high)| values.all_whole() && high - low < MOST_COUNTED)?;
+    let numbers = std::iter::successors(Some(low), |number| Some(number + 1.0));
+    let numbers = numbers.take_while(|number| *number <= high).filter(|number| values.contains(*number));
+    Some(numbers.map(|number| Number { number, read: false }).collect())
 }
 
 /// What the table says that a code of the source is.

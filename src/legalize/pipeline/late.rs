@@ -12,7 +12,7 @@ use crate::legalize::lathe::contours;
 use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
 use crate::legalize::moves::start;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
-use crate::legalize::registers::{allocate, clear, frames, temporaries};
+use crate::legalize::registers::{allocate, clear, frames, outside, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
 
 pub(super) const EXPRESSIONS: &[Pass] = &[
@@ -100,6 +100,12 @@ pub(super) const REGISTERS: &[Pass] = &[
         "reached",
         "reports computed numbers that reach a register of another variable",
         computed_numbers::report,
+    )
+    .needs(&["registers"]),
+    Pass::reports(
+        "outside",
+        "reports variables that nothing here sets, where their number changes",
+        outside::run,
     )
     .needs(&["registers"]),
     Pass::rewrites("clear", "clearing of a class becomes zeros and loops", clear::run)

@@ -23,8 +23,8 @@ use crate::legalize::moves::{joined, start};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
-    banks, computed_numbers, counted_clears, modal_reads, output_codes, output_states, probe_points, signals,
-    state, subscript_chains, timers, touch_points, vacant_writes,
+    banks, computed_numbers, counted_clears, dates, modal_reads, most_values, output_codes, output_states,
+    probe_points, signals, state, subscript_chains, timers, touch_points, vacant_writes,
 };
 use crate::opt::{
     Branches, CopyPropagation, DeadStores, Fold, Nested, Retarget, Unreachable, WholeParts, WordValues,
@@ -294,6 +294,15 @@ const VARIABLES: &[Pass] = &[
         .changes_flow(),
     Pass::rewrites("timers", "a timer that programs set becomes the seconds since the start", timers::run)
         .when(timers::concerns),
+    Pass::each("dates", "dates with and without the century become each other", dates::run)
+        .when(dates::concerns)
+        .needs(&["computed-numbers"]),
+    Pass::reports(
+        "most-values",
+        "checks numbers that state is set to against the target's largest",
+        most_values::run,
+    )
+    .when(|c, _| c.has(Feature::System)),
     Pass::edits("position-length", "positions hold the tool length as they did", position_length::run)
         .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),

@@ -3,7 +3,7 @@
 //! [`frames`] makes statics of locals, on a target that has none. [`temporaries`] and [`statics`] colour what may share:
 //! two whose live ranges, calls included, do not meet; [`needs`] tells which must be of a class that words take.
 //! [`allocate`] then gives each variable its register, in a map for the whole library ([`map`]); [`locked`] are the choices
-//! of earlier runs.
+//! of earlier runs, and [`outside`] tells who sets variables that moved.
 
 pub(in crate::legalize) mod allocate;
 pub(in crate::legalize) mod clear;
@@ -12,6 +12,7 @@ pub(in crate::legalize) mod locked;
 pub(in crate::legalize) mod map;
 pub(in crate::legalize) mod names;
 pub(in crate::legalize) mod needs;
+pub(in crate::legalize) mod outside;
 mod pool;
 mod runs;
 mod shortage;

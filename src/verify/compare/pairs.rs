@@ -22,6 +22,7 @@ use super::substitutes::{
 use super::tolerance::Tolerance;
 use super::unseen::{before_alarm, told_at};
 use super::variables::variables_differ;
+use crate::canon::Op;
 use crate::control::Run;
 use crate::control::trace::{EventKind, Position, Told};
 use crate::verify::sides::{Side, SymbolMap};
@@ -308,11 +309,13 @@ impl<'p, 'r> Pairs<'p, 'r> {
             self.found.replaced.insert(replaced);
             return true;
         }
+        if let Some(text) = builders::is_left_out(self.source, self.target, what) {
+            self.found.replaced.insert((Op::Act, text));
+            return true;
+        }
         let leaves = returns_to_caller(what);
         self.left |= leaves.is_some();
-        let left_out = makes_ready(self.target, what)
-            .or_else(|| builders::is_left_out(self.source, self.target, what))
-            .or(leaves);
+        let left_out = makes_ready(self.target, what).or(leaves);
         self.found.substituted.extend(left_out.clone());
         left_out.is_some()
     }
@@ -337,7 +340,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             return Some("a message stands for a stop".to_owned());
         }
         if let Some((ends, text)) = builders::stands_for(self.source, self.target, (a, b)) {
-            self.found.substituted.insert(text);
+            self.found.replaced.insert((Op::Act, text));
             self.found.stopped |= ends;
             return None;
         }

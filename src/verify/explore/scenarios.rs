@@ -241,7 +241,12 @@ impl Proposals {
             let value = match state {
                 Sys::Input | Sys::InputInverted | Sys::Output if count < GROUNDS => ((at + count) % 2) as f64,
                 Sys::Input | Sys::InputInverted | Sys::Output => f64::from(u8::from(self.random.one_in(2))),
-                Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds | Sys::Date | Sys::Time => continue,
+                Sys::TimerMs
+                | Sys::TimerHours
+                | Sys::CycleSeconds
+                | Sys::Date
+                | Sys::ShortDate
+                | Sys::Time => continue,
                 _ => {
                     let near = if values.is_empty() { &self.inputs.numbers } else { values };
                     self.random.pick(near).copied().unwrap_or(1.0).round().abs()

@@ -144,6 +144,35 @@ fn output_has_its_places() {
     assert_eq!(text, Some("X    1.500 Y-12.35Z   2"));
 }
 
+/// Formatting would make 12 and -0.12 of them: the even neighbours.
+#[test]
+fn a_half_goes_away_from_zero_in_output() {
+    let run = haas("O1\n#1=12.5\n#2=-0.125\n#3=2.25\nDPRNT[N#1[40]D#2[32]E#3[32]]\nM30\n");
+    let text = run.events.iter().find_map(|event| match &event.what {
+        EventKind::Output { text } => Some(text.as_str()),
+        _ => None,
+    });
+    assert_eq!(text, Some("N  13D -0.13E  2.25"));
+    assert!(doubts(&run, "machine:output.half"));
+    assert!(!doubts(&haas("O1\n#1=12.25\nDPRNT[N#1[40]]\nM30\n"), "machine:output.half"));
+}
+
+#[test]
+fn a_word_that_picks_a_code_has_a_meaning() {
+    for (block, letter) in [("G5.1 Q1", "word:Q"), ("G8 P1", "word:P"), ("G5 P10000", "word:P")] {
+        assert!(!doubts(&fanuc(&format!("O1\n{block}\nM30\n")), letter), "{block}");
+    }
+    // Beside a code that it does not pick, nobody knows what it means.
+    assert!(doubts(&fanuc("O1\nG90 Q1\nM30\n"), "word:Q"));
+}
+
+#[test]
+fn a_state_that_takes_two_numbers_doubts_a_third() {
+    assert!(doubts(&haas("O1\n#3003=2\nM30\n"), "machine:state.larger"));
+    assert!(!doubts(&haas("O1\n#3003=1\nM30\n"), "machine:state.larger"));
+    assert!(!doubts(&fanuc("O1\n#3003=3\nM30\n"), "machine:state.larger"));
+}
+
 #[test]
 fn branches_tell_which_way_they_went() {
     let run = fanuc("O1\n#1=1\nIF[#1 EQ 1]GOTO5\n#1=2\nN5 WHILE[#1 LT 3]DO1\n#1=#1+1\nEND1\nM30\n");

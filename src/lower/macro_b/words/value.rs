@@ -3,7 +3,7 @@
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, CodeMeaning, Machine, Question, Side};
-use crate::ir::{BinOp, Expr};
+use crate::ir::{BinOp, Expr, is_finer_than_words};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::expressions::{At, is_constant};
 use crate::lower::macro_b::parts::literal;
@@ -177,6 +177,9 @@ impl<'a> Lowering<'a> {
             (Expr::Number(number), _) if role.is_integer() => {
                 Expr::Number(self.control.canonical(code, role, number.round()))
             }
+            (Expr::Number(number), None | Some([])) if is_fine(role, number) => {
+                Expr::binary(BinOp::Add, Expr::Number(number), Expr::Number(0.0))
+            }
             (lowered, None | Some([])) => lowered,
             (lowered, Some([one])) => Expr::binary(BinOp::Add, lowered, Expr::Number(one.add as f64)),
             (lowered, Some(_)) => {
@@ -265,4 +268,10 @@ impl<'a> Lowering<'a> {
             }
         }
     }
+}
+
+/// True for a constant in brackets with more places than an increment of lengths may have: the control rounds what it
+/// computes, and a number that is written so may be read in another way. It stays a computation.
+fn is_fine(role: Role, number: f64) -> bool {
+    (role.is_length() || role.is_angle()) && is_finer_than_words(number)
 }

@@ -55,7 +55,11 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
     let variables = inputs.variables.iter().map(|input| Input::Variable(input.name.clone(), input.theirs));
     let read = |wanted: Sys| inputs.cells.keys().any(|(state, _)| *state == wanted);
     let tool = read(Sys::ActiveTool) || inputs.cells.contains_key(&(Sys::Address, vec![T]));
-    let machine = [(Input::Time, read(Sys::Time)), (Input::Day, read(Sys::Date)), (Input::Tool, tool)];
+    let machine = [
+        (Input::Time, read(Sys::Time)),
+        (Input::Day, read(Sys::Date) || read(Sys::ShortDate)),
+        (Input::Tool, tool),
+    ];
     let machine = machine.into_iter().filter(|(_, is_read)| *is_read).map(|(input, _)| input);
     let cells = inputs.cells.keys().filter_map(|(state, subscripts)| Input::of_cell(*state, subscripts));
     let state = (0..scenario.state.len()).map(Input::State);

@@ -1,0 +1,116 @@
+//! Variables that the library reads and never sets, where they get another number.
+//!
+//! Law: what nothing in the library sets is set by an operator or by another program, by its number on the source. Side
+//! condition: it keeps that number. Where the target has something else there, whoever sets it must set its register, and is told
+//! so, once for the library. Counter-example: probing that leaves its calibration in `#556`, which the target's profile
+//! reserves.
+
+use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::{VarSet, Vars};
+use crate::ir::{Class, Expr, Module, Place, Program, StmtKind, Var};
+use crate::legalize::Context;
+use crate::legalize::registers::names::{in_a_sentence, name_of};
+use std::collections::BTreeSet;
+
+/// Reports variables that nothing here sets and that have another number on the target: of all of them in one sentence.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let written = written(module);
+    let reads: Vec<VarSet> = module.programs.iter().map(read).collect();
+    let moved = |var: &Var| {
+        let register = context.registers.of.get(var)?;
+        let set_here =
+            !is_shared(var.class) || written.contains(*var) || context.registers.is_own(var, register);
+        (!set_here).then(|| name_of(*var, module, context.source)).flatten().map(|name| (name, register))
+    };
+    let all: BTreeSet<Var> = reads.iter().flat_map(VarSet::iter).collect();
+    let mut moves: Vec<(Var, Named, Named)> = Vec::new();
+    for var in all {
+        if let Some((name, register)) = moved(&var) {
+            moves.push((var, apart(&name), (register.name.clone(), Some(register.number))));
+        }
+    }
+    if moves.is_empty() {
+        return;
+    }
+    let what = told(&moves);
+    let help = "whoever sets it, an operator or another program, must set the one of the target; 'reserved' in the target's \
+                profile keeps numbers free";
+    for (index, read) in reads.iter().enumerate() {
+        if moves.iter().any(|(var, ..)| read.contains(*var)) {
+            let span = module.programs[index].site.span;
+            let finding = Diagnostic::new(Code::Conditional, span, what.clone()).with_help(help);
+            context.add(index, finding.asked_once());
+        }
+    }
+}
+
+/// A name, and the number at its end if it has one.
+type Named = (String, Option<u32>);
+
+fn apart(name: &str) -> Named {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    match name[letters.len()..].parse() {
+        Ok(number) => (letters.to_owned(), Some(number)),
+        Err(_) => (name.to_owned(), None),
+    }
+}
+
+/// The sentence about variables, with those in a row that stay in a row as one.
+fn told(moves: &[(Var, Named, Named)]) -> String {
+    let next = |a: &Named, b: &Named| a.0 == b.0 && a.1.is_some() && a.1.map(|n| n + 1) == b.1;
+    let written =
+        |(name, number): &Named| format!("{name}{}", number.map(|n| n.to_string()).unwrap_or_default());
+    let rows = moves.chunk_by(|a, b| next(&a.1, &b.1) && next(&a.2, &b.2));
+    let said = rows.filter_map(|row| {
+        let (first, last) = (row.first()?, row.last()?);
+        Some(match row.len() {
+            1 => format!("{} is {} on the target", written(&first.1), written(&first.2)),
+            _ => format!(
+                "{} to {} are {} to {} on the target",
+                written(&first.1),
+                written(&last.1),
+                written(&first.2),
+                written(&last.2)
+            ),
+        })
+    });
+    let said = in_a_sentence(&said.collect::<Vec<_>>());
+    match moves {
+        [one] => format!(
+            "{} is read and nothing here sets it: it is {} on the target; set that one",
+            written(&one.1),
+            written(&one.2)
+        ),
+        _ => format!("variables are read that nothing here sets: {said}; set those"),
+    }
+}
+
+/// What a program reads by name.
+fn read(program: &Program) -> VarSet {
+    let mut read = VarSet::default();
+    let mut add = |e: &Expr| e.variables(&mut |var| _ = read.insert(var));
+    for block in &program.blocks {
+        block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut add));
+        block.term.kind.exprs(&mut add);
+    }
+    read
+}
+
+/// What the library sets by name, or clears.
+fn written(module: &Module) -> Vars {
+    let mut written = Vars::default();
+    let blocks = module.programs.iter().flat_map(|program| &program.blocks);
+    for stmt in blocks.flat_map(|block| &block.stmts) {
+        match (&stmt.kind, stmt.kind.target()) {
+            (StmtKind::ClearAll(class), _) => written.classes.insert(*class),
+            (_, Some(Place::Var(var))) => _ = written.vars.insert(*var),
+            _ => {}
+        }
+    }
+    written
+}
+
+/// True for what is not a program's own.
+fn is_shared(class: Class) -> bool {
+    matches!(class, Class::Common | Class::Retained | Class::Global | Class::Parametric)
+}
