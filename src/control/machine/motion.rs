@@ -37,7 +37,13 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     if let Some(op) = command.of(Group::Motion) {
         machine.motion = op;
         machine.lathe.after_cycle = false;
-        if machine.cycle.is_some() && machine.rules.motion_ends_cycle.ask(trace) {
+        let arc_goes_on = |machine: &Machine, trace: &mut Trace| {
+            op.is_arc() && !command.has(Op::CycleOff) && !machine.rules.arc_ends_cycle.ask(trace)
+        };
+        if machine.cycle.is_some()
+            && machine.rules.motion_ends_cycle.ask(trace)
+            && !arc_goes_on(machine, trace)
+        {
             machine.cycle = None;
         }
     }

@@ -112,6 +112,8 @@ pub struct Rules {
     pub rotation_runs_cycle: Fact<bool>,
     pub rotation_is_ccw: Fact<bool>,
     pub motion_ends_cycle: Fact<bool>,
+    /// An arc does, where other codes of motion do.
+    pub arc_ends_cycle: Fact<bool>,
     pub offset_acts_at_once: Fact<bool>,
     pub radius_table: Fact<RadiusTable>,
     pub tool_word_changes: Fact<bool>,
@@ -216,6 +218,8 @@ impl Rules {
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
             motion_ends_cycle: yes(control, Question::CycleEndsByMotion, true)
                 .or_silent(control, Question::CycleEndsByMotion),
+            arc_ends_cycle: fact(control, Question::CycleEndsByArc, |value| Some(value == "true"), true)
+                .or_silent(control, Question::CycleEndsByArc),
             offset_acts_at_once: yes(control, Question::OffsetActiveImmediately, true),
             // Where it is a setting nobody stated, as conversions take it.
             radius_table: fact(control, Question::RadiusOffsetTable, table, RadiusTable::Diameter),

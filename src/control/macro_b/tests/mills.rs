@@ -1,0 +1,21 @@
+//! Cycles and compensation of mills, where controls part or a program slips.
+
+use super::*;
+
+fn arcs(run: &Run) -> usize {
+    run.events.iter().filter(|event| matches!(event.what, EventKind::Arc { .. })).count()
+}
+
+/// True where a run rests on a fact.
+fn doubts(run: &Run, fact: &str) -> bool {
+    run.events.iter().any(|event| matches!(&event.what, EventKind::Unsure { fact: found } if found == fact))
+}
+
+const ARC: &str = "O1\nG21G90G17\nG0X0Y0Z5.\nG81X1.Y1.Z-5.R1.F10.\nG2X2.Y2.R1.\nM30\n";
+
+#[test]
+fn an_arc_ends_a_drilling_cycle_on_a_fanuc_and_nobody_says_it_of_a_haas() {
+    let ends = "behaviour:cycle.ends.by.arc";
+    assert_eq!((arcs(&fanuc(ARC)), doubts(&fanuc(ARC), ends)), (1, false));
+    assert_eq!((arcs(&haas(ARC)), doubts(&haas(ARC), ends)), (0, true));
+}
