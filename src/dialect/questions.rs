@@ -235,6 +235,7 @@ questions! {
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
+    CyclePlane "cycle.plane" OneOf(&["any", "xy", "unknown"]), "the planes that drilling cycles run in: any, or that of G17 alone", if "said";
     CycleEndsByArc "cycle.ends.by.arc" YES, "an arc code ends the drilling cycle in force, where other motion codes do", if "said";
     RoughingEnds "roughing.ends" OneOf(&["along", "levels", "unknown"]), "how the roughing of a contour ends: with a pass along it, always, or level by \
                                                     level, and along it only with an allowance for that pass", if "op:contour.turning";

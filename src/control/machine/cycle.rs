@@ -5,7 +5,7 @@ use super::{Command, Machine, expand, lathe};
 use crate::canon::{Op, Role};
 use crate::control::entry::Drilling;
 use crate::control::outcome::Stop;
-use crate::control::trace::{EventKind, Trace};
+use crate::control::trace::{EventKind, Plane, Trace};
 
 /// A cycle in force. Depths are program coordinates along the drilling axis, millimetres.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,6 +121,11 @@ pub(super) fn across(command: &Command, along: usize) -> Command {
 /// Drills at the present place.
 pub(super) fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
     let Some(mut cycle) = machine.cycle.clone() else { return Ok(()) };
+    if machine.plane != Plane::Xy && !machine.rules.lathe && !machine.rules.cycles_in_any_plane.ask(trace) {
+        return Err(Stop::unnamed(
+            "a drilling cycle under G18 or G19, and this control drills under G17 alone",
+        ));
+    }
     if cycle.without_dwell {
         // The dwell that an earlier cycle was given is none of this one.
         cycle.dwell = 0.0;

@@ -111,6 +111,8 @@ pub struct Rules {
     pub cycle_runs_by_depth: Fact<bool>,
     pub rotation_runs_cycle: Fact<bool>,
     pub rotation_is_ccw: Fact<bool>,
+    /// Drilling cycles run in any plane; else under G17 alone.
+    pub cycles_in_any_plane: Fact<bool>,
     pub motion_ends_cycle: Fact<bool>,
     /// An arc does, where other codes of motion do.
     pub arc_ends_cycle: Fact<bool>,
@@ -216,6 +218,8 @@ impl Rules {
             cycle_runs_by_depth: yes(control, Question::CycleRunsByDepth, false),
             rotation_runs_cycle: yes(control, Question::RotationRunsCycle, false),
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
+            cycles_in_any_plane: fact(control, Question::CyclePlane, word("any", "xy"), true)
+                .or_silent(control, Question::CyclePlane),
             motion_ends_cycle: yes(control, Question::CycleEndsByMotion, true)
                 .or_silent(control, Question::CycleEndsByMotion),
             arc_ends_cycle: fact(control, Question::CycleEndsByArc, |value| Some(value == "true"), true)

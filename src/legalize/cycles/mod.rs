@@ -6,6 +6,7 @@ pub(in crate::legalize) mod cycle_ends;
 pub(in crate::legalize) mod cycle_here;
 pub(in crate::legalize) mod cycle_planes;
 pub(in crate::legalize) mod cycle_words;
+pub(in crate::legalize) mod drill_planes;
 pub(in crate::legalize) mod dwell;
 pub(in crate::legalize) mod hole_circles;
 pub(in crate::legalize) mod hole_moves;

@@ -14,7 +14,7 @@ use crate::legalize::calls::{
 use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
 };
-use crate::legalize::cycles::{cycle_arcs, stored_places};
+use crate::legalize::cycles::{cycle_arcs, drill_planes, stored_places};
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
@@ -155,6 +155,8 @@ const SOURCE: &[Pass] = &[
     .when(stored_places::concerns),
     Pass::reports("cycle-arcs", "refuses arcs under drilling cycles that they do not end", cycle_arcs::run)
         .when(cycle_arcs::concerns),
+    Pass::reports("drill-planes", "checks drilling cycles in other planes than G17", drill_planes::run)
+        .when(drill_planes::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];

@@ -19,3 +19,12 @@ fn an_arc_ends_a_drilling_cycle_on_a_fanuc_and_nobody_says_it_of_a_haas() {
     assert_eq!((arcs(&fanuc(ARC)), doubts(&fanuc(ARC), ends)), (1, false));
     assert_eq!((arcs(&haas(ARC)), doubts(&haas(ARC), ends)), (0, true));
 }
+
+#[test]
+fn a_haas_drills_under_g17_alone() {
+    let text = |plane: &str| format!("O1\nG21G90{plane}\nG0X0Y5.Z5.\nG81X1.Z1.Y-5.R1.F10.\nG80\nM30\n");
+    assert_eq!(fanuc(&text("G18")).end, End::Ended);
+    assert_eq!(haas(&text("G17")).end, End::Ended);
+    assert!(matches!(haas(&text("G18")).end, End::Alarm { .. }));
+    assert!(matches!(haas(&text("G19")).end, End::Alarm { .. }));
+}
