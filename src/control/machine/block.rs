@@ -135,6 +135,10 @@ fn dwell(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         .unwrap_or(0.0)
         .max(0.0);
     machine.clock += seconds * 1000.0;
+    let in_cycle = machine.cycle.is_some() && !command.has(Op::CycleOff) && !machine.rules.lathe;
+    if in_cycle && machine.rules.dwell_is_of_cycle.peek() {
+        machine.cycle.iter_mut().for_each(|cycle| cycle.waited = Some(seconds));
+    }
     machine.lathe.last_dwell = Some(seconds);
     trace.push(EventKind::Dwell { seconds });
 }

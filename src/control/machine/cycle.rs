@@ -18,6 +18,8 @@ pub(super) struct Cycle {
     pub z: Option<(f64, bool)>,
     pub peck: Option<f64>,
     pub dwell: f64,
+    /// The time of a wait since the cycle was told its dwell, where that may be the dwell too.
+    pub waited: Option<f64>,
     pub without_dwell: bool,
     pub first_peck: Option<f64>,
     pub less: f64,
@@ -129,6 +131,10 @@ pub(super) fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop>
     if cycle.without_dwell {
         // The dwell that an earlier cycle was given is none of this one.
         cycle.dwell = 0.0;
+    } else if let Some(waited) = cycle.waited
+        && machine.rules.dwell_is_of_cycle.ask(trace)
+    {
+        cycle.dwell = waited;
     }
     if machine.frame.scale.is_some() {
         machine.rules.scale_reaches_cycle.ask(trace);
@@ -171,6 +177,7 @@ impl Cycle {
             z: None,
             peck: None,
             dwell: 0.0,
+            waited: None,
             without_dwell: false,
             first_peck: None,
             less: 0.0,
@@ -198,6 +205,7 @@ impl Cycle {
         }
         self.peck = length(Role::CycleQ).or(self.peck);
         self.dwell = command.word(Role::CycleDwell).map_or(self.dwell, |ms| ms / 1000.0);
+        self.waited = self.waited.filter(|_| command.word(Role::CycleDwell).is_none());
         self.without_dwell = command.without_dwell;
         self.first_peck = length(Role::PeckFirst).or(self.first_peck);
         self.less = length(Role::PeckLess).unwrap_or(self.less);

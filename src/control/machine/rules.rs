@@ -113,6 +113,8 @@ pub struct Rules {
     pub rotation_is_ccw: Fact<bool>,
     /// Drilling cycles run in any plane; else under G17 alone.
     pub cycles_in_any_plane: Fact<bool>,
+    /// The time of a wait is that of the cycle in force too.
+    pub dwell_is_of_cycle: Fact<bool>,
     pub motion_ends_cycle: Fact<bool>,
     /// An arc does, where other codes of motion do.
     pub arc_ends_cycle: Fact<bool>,
@@ -220,6 +222,13 @@ impl Rules {
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
             cycles_in_any_plane: fact(control, Question::CyclePlane, word("any", "xy"), true)
                 .or_silent(control, Question::CyclePlane),
+            dwell_is_of_cycle: fact(
+                control,
+                Question::CycleDwellShared,
+                |value| Some(value != "false"),
+                false,
+            )
+            .or_silent(control, Question::CycleDwellShared),
             motion_ends_cycle: yes(control, Question::CycleEndsByMotion, true)
                 .or_silent(control, Question::CycleEndsByMotion),
             arc_ends_cycle: fact(control, Question::CycleEndsByArc, |value| Some(value == "true"), true)

@@ -5,6 +5,7 @@ pub(in crate::legalize) mod cycle_arcs;
 pub(in crate::legalize) mod cycle_ends;
 pub(in crate::legalize) mod cycle_here;
 pub(in crate::legalize) mod cycle_planes;
+pub(in crate::legalize) mod cycle_waits;
 pub(in crate::legalize) mod cycle_words;
 pub(in crate::legalize) mod drill_planes;
 pub(in crate::legalize) mod dwell;

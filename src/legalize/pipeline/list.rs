@@ -14,7 +14,7 @@ use crate::legalize::calls::{
 use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
 };
-use crate::legalize::cycles::{cycle_arcs, drill_planes, stored_places};
+use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, stored_places};
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
@@ -157,6 +157,12 @@ const SOURCE: &[Pass] = &[
         .when(cycle_arcs::concerns),
     Pass::reports("drill-planes", "checks drilling cycles in other planes than G17", drill_planes::run)
         .when(drill_planes::concerns),
+    Pass::reports(
+        "cycle-waits",
+        "refuses waits inside drilling cycles whose time is the cycle's too",
+        cycle_waits::run,
+    )
+    .when(cycle_waits::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];

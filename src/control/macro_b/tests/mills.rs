@@ -28,3 +28,20 @@ fn a_haas_drills_under_g17_alone() {
     assert!(matches!(haas(&text("G18")).end, End::Alarm { .. }));
     assert!(matches!(haas(&text("G19")).end, End::Alarm { .. }));
 }
+
+/// The waits at the bottoms of holes, seconds.
+fn waits(run: &Run) -> Vec<f64> {
+    let waits = run.events.iter().filter_map(|event| match &event.what {
+        EventKind::Dwell { seconds } => Some(*seconds),
+        _ => None,
+    });
+    waits.collect()
+}
+
+#[test]
+fn a_wait_inside_a_drilling_cycle_is_the_cycles_too_on_a_haas_by_a_report() {
+    let text = "O1\nG21G90G17\nG0X0Y0Z5.\nG82X1.Y1.Z-5.R1.P500F10.\nG4P2000\nX2.\nG80\nM30\n";
+    let shared = "behaviour:cycle.dwell.shared";
+    assert_eq!((waits(&fanuc(text)), doubts(&fanuc(text), shared)), (vec![0.5, 2.0, 0.5], false));
+    assert_eq!((waits(&haas(text)), doubts(&haas(text), shared)), (vec![0.5, 2.0, 2.0], true));
+}
