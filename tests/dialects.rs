@@ -134,7 +134,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[368, 228, 68, 21], [605, 37, 82, 20], [269, 3, 114, 43], [241, 0, 87, 37]]);
+    assert_eq!(counts, [[368, 228, 69, 22], [605, 37, 83, 21], [269, 3, 115, 44], [241, 0, 87, 37]]);
 }
 
 fn control(name: &str) -> Control {

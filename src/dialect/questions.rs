@@ -237,6 +237,7 @@ questions! {
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
     CyclePlane "cycle.plane" OneOf(&["any", "xy", "unknown"]), "the planes that drilling cycles run in: any, or that of G17 alone", if "said";
     CycleDwellShared "cycle.dwell.shared" YES, "the time of a wait while a drilling cycle is in force is the wait of its next holes too", if "said";
+    CycleWordsAlone "cycle.words.alone" OneOf(&["kept", "ignored", "unknown"]), "what words of a drilling cycle do in a block that drills nothing: they are kept for the next holes, or ignored", if "role:cycle.dwell or role:cycle.q";
     CycleEndsByArc "cycle.ends.by.arc" YES, "an arc code ends the drilling cycle in force, where other motion codes do", if "said";
     RoughingEnds "roughing.ends" OneOf(&["along", "levels", "unknown"]), "how the roughing of a contour ends: with a pass along it, always, or level by \
                                                     level, and along it only with an allowance for that pass", if "op:contour.turning";

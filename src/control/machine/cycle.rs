@@ -54,7 +54,12 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     let Some(cycle) = &mut machine.cycle else {
         return Err(Stop::unnamed("no drilling cycle is in force"));
     };
-    cycle.read(command, (unit, incremental), along);
+    let alone = !command.has_axes() && !command.has(Op::CycleHere) && is_alone(command);
+    let rules = &machine.rules;
+    let drills = begins.is_some() && rules.cycle_runs_without_axes.peek();
+    if !alone || drills || rules.lone_words_kept.ask(trace) {
+        cycle.read(command, (unit, incremental), along);
+    }
     machine.round_cycle(command, along, begins.is_some());
     machine.round_in(&across(command, along), trace);
     let names = |axis: usize| axis != along;
@@ -95,6 +100,16 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         }
     }
     Ok(())
+}
+
+/// True for words of a cycle without a plane or a count of it.
+fn is_alone(command: &Command) -> bool {
+    use Role::{CycleDwell, CycleI, CycleJ, CycleQ, PeckClear, PeckFirst, PeckLeast, PeckLess};
+    let of_cycle = |role: Role| {
+        matches!(role, CycleDwell | CycleQ | CycleI | CycleJ | PeckFirst | PeckLess | PeckLeast | PeckClear)
+    };
+    let planes = command.word(Role::CycleR).is_some() || command.word(Role::Repeat).is_some();
+    !planes && command.words.iter().any(|(role, _)| of_cycle(*role))
 }
 
 /// A block that stores a cycle and does not drill still goes to its place; what it does with a count of zero is asked.

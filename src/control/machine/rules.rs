@@ -115,6 +115,8 @@ pub struct Rules {
     pub cycles_in_any_plane: Fact<bool>,
     /// The time of a wait is that of the cycle in force too.
     pub dwell_is_of_cycle: Fact<bool>,
+    /// Words of a cycle are kept in a block that drills nothing.
+    pub lone_words_kept: Fact<bool>,
     pub motion_ends_cycle: Fact<bool>,
     /// An arc does, where other codes of motion do.
     pub arc_ends_cycle: Fact<bool>,
@@ -229,6 +231,8 @@ impl Rules {
                 false,
             )
             .or_silent(control, Question::CycleDwellShared),
+            lone_words_kept: fact(control, Question::CycleWordsAlone, word("kept", "ignored"), true)
+                .or_silent(control, Question::CycleWordsAlone),
             motion_ends_cycle: yes(control, Question::CycleEndsByMotion, true)
                 .or_silent(control, Question::CycleEndsByMotion),
             arc_ends_cycle: fact(control, Question::CycleEndsByArc, |value| Some(value == "true"), true)

@@ -14,7 +14,7 @@ use crate::legalize::calls::{
 use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
 };
-use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, stored_places};
+use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, lone_words, stored_places};
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
@@ -163,6 +163,8 @@ const SOURCE: &[Pass] = &[
         cycle_waits::run,
     )
     .when(cycle_waits::concerns),
+    Pass::edits("lone-words", "words of a cycle that the source ignores go", lone_words::run)
+        .when(lone_words::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];

@@ -45,3 +45,14 @@ fn a_wait_inside_a_drilling_cycle_is_the_cycles_too_on_a_haas_by_a_report() {
     assert_eq!((waits(&fanuc(text)), doubts(&fanuc(text), shared)), (vec![0.5, 2.0, 0.5], false));
     assert_eq!((waits(&haas(text)), doubts(&haas(text), shared)), (vec![0.5, 2.0, 2.0], true));
 }
+
+#[test]
+fn words_of_a_cycle_that_drill_nothing_are_doubted() {
+    let text = "O1\nG21G90G17\nG0X0Y0Z5.\nG82X1.Y1.Z-5.R1.P500F10.\nP2000\nX2.\nG80\nM30\n";
+    let alone = "behaviour:cycle.words.alone";
+    assert!(doubts(&fanuc(text), alone) && doubts(&haas(text), alone));
+    let profile = "dialect = \"fanuc\"\n[behaviours]\n\"cycle.words.alone\" = \"ignored\"\n";
+    let control = Control::from_profile(profile).expect("a profile");
+    let run = run_on(&control, &[text], &Scenario::default());
+    assert_eq!((waits(&run), doubts(&run, alone)), (vec![0.5, 0.5], false));
+}
