@@ -88,6 +88,8 @@ pub struct Machine {
     tools: Table<Tool>,
     length_op: Op,
     length_offset: u32,
+    /// True once the number of a length was named.
+    length_named: bool,
     /// What may have cancelled the length since the program named it.
     length_lost: Option<Lost>,
     side: Side,
@@ -148,6 +150,7 @@ impl Machine {
             tools: scenario.tools.clone(),
             length_op: Op::LengthOff,
             length_offset: 0,
+            length_named: false,
             length_lost: None,
             side: Side::Off,
             radius_offset: 0,

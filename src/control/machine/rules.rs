@@ -128,6 +128,8 @@ pub struct Rules {
     pub tool_word_selects_length: Fact<bool>,
     pub cutter_takes_tool: Fact<bool>,
     pub length_picks_radius: Fact<bool>,
+    /// Where no number of a length was ever named, its code takes that of the tool in the spindle.
+    pub unnamed_length_is_tools: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
     pub length_after_reference: Fact<LengthAfter>,
@@ -250,6 +252,8 @@ impl Rules {
             tool_word_selects_length: yes(control, Question::ToolWordSelectsLength, false),
             cutter_takes_tool: yes(control, Question::RadiusOffsetActiveTool, false),
             length_picks_radius: yes(control, Question::LengthWordPicksRadius, false),
+            unnamed_length_is_tools: fact(control, Question::LengthNeverNamed, word("tool", "zero"), false)
+                .or_silent(control, Question::LengthNeverNamed),
             end_cancels_length: yes(control, Question::EndCancelsLength, false),
             reference_takes_all: yes(control, Question::ReferenceAllAxes, false),
             length_after_reference: fact(control, Question::ReferenceLength, length_after, LengthAfter::Kept),

@@ -20,7 +20,7 @@ use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{joined, start};
-use crate::legalize::offsets::{offset_rows, position_length, tool_word};
+use crate::legalize::offsets::{missing_length, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, modal_reads, output_codes, output_states, probe_points, signals,
@@ -165,6 +165,12 @@ const SOURCE: &[Pass] = &[
     .when(cycle_waits::concerns),
     Pass::edits("lone-words", "words of a cycle that the source ignores go", lone_words::run)
         .when(lone_words::concerns),
+    Pass::reports(
+        "missing-length",
+        "tells of tool lengths whose number no block ever named",
+        missing_length::run,
+    )
+    .when(missing_length::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];

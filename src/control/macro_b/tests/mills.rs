@@ -56,3 +56,12 @@ fn words_of_a_cycle_that_drill_nothing_are_doubted() {
     let run = run_on(&control, &[text], &Scenario::default());
     assert_eq!((waits(&run), doubts(&run, alone)), (vec![0.5, 0.5], false));
 }
+
+#[test]
+fn a_length_without_a_number_is_doubted() {
+    let never = "behaviour:length.never.named";
+    for (blocks, doubted) in [("T3M6\nG43Z1.", true), ("T3M6\nG43H3Z1.\nG49\nG43Z2.", false)] {
+        let text = format!("O1\nG21G90\n{blocks}\nM30\n");
+        assert_eq!((doubts(&fanuc(&text), never), doubts(&haas(&text), never)), (doubted, doubted));
+    }
+}
