@@ -93,6 +93,8 @@ pub struct Machine {
     /// What may have cancelled the length since the program named it.
     length_lost: Option<Lost>,
     side: Side,
+    /// True where compensation was switched on or off, and no move in the plane followed yet.
+    side_switched: bool,
     radius_offset: u32,
     /// True where the word of the length named it.
     radius_with_length: bool,
@@ -153,6 +155,7 @@ impl Machine {
             length_named: false,
             length_lost: None,
             side: Side::Off,
+            side_switched: false,
             radius_offset: 0,
             radius_with_length: false,
             path_mode: Op::CuttingMode,

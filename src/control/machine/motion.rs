@@ -131,6 +131,12 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
 
 /// The move of a block, once.
 fn once(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let arcs = matches!(machine.motion, Op::ArcCw | Op::ArcCcw) && !command.has(Op::RapidOnce);
+    if machine.side_switched && arcs && !machine.rules.radius_starts_on_arc.ask(trace) {
+        return Err(Stop::unnamed("cutter compensation begins or ends on an arc"));
+    }
+    let (first, second, _) = machine.plane.axes();
+    machine.side_switched &= !arcs && !command.axes().any(|(axis, _)| axis == first || axis == second);
     match machine.motion {
         _ if command.has(Op::RapidOnce) => {
             let to = machine.target(command);

@@ -130,6 +130,8 @@ pub struct Rules {
     pub length_picks_radius: Fact<bool>,
     /// Where no number of a length was ever named, its code takes that of the tool in the spindle.
     pub unnamed_length_is_tools: Fact<bool>,
+    /// Cutter compensation may begin and end on an arc.
+    pub radius_starts_on_arc: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
     pub length_after_reference: Fact<LengthAfter>,
@@ -254,6 +256,8 @@ impl Rules {
             length_picks_radius: yes(control, Question::LengthWordPicksRadius, false),
             unnamed_length_is_tools: fact(control, Question::LengthNeverNamed, word("tool", "zero"), false)
                 .or_silent(control, Question::LengthNeverNamed),
+            radius_starts_on_arc: yes(control, Question::RadiusStartsOnArc, true)
+                .or_silent(control, Question::RadiusStartsOnArc),
             end_cancels_length: yes(control, Question::EndCancelsLength, false),
             reference_takes_all: yes(control, Question::ReferenceAllAxes, false),
             length_after_reference: fact(control, Question::ReferenceLength, length_after, LengthAfter::Kept),

@@ -153,8 +153,10 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         return super::lathe::turret::nose(machine, side, trace);
     }
     if side.is_some() || renewed {
+        let was_off = machine.side == Side::Off;
         machine.side = side.unwrap_or(machine.side);
         let off = machine.side == Side::Off;
+        machine.side_switched |= was_off != off;
         if machine.radius_with_length && !off {
             machine.rules.length_picks_radius.ask(trace);
         }

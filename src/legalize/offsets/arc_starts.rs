@@ -5,7 +5,7 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Row, Side};
+use crate::dialect::{Control, Machine, Question, Row, Side};
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
 use crate::ir::{Block, BlockId, Module, Nc, Stmt};
@@ -14,7 +14,8 @@ use crate::legalize::{Context, Modal, ModalFacts};
 
 /// True if the library compensates and cuts arcs, and one of the controls does not take them together.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    (forbids(context.source) || forbids(context.target))
+    context.target.machine() == Machine::Mill
+        && (forbids(context.source) || forbids(context.target))
         && features.any_op(|op| matches!(op, Op::RadiusLeft | Op::RadiusRight))
         && features.any_op(Op::is_arc)
 }
@@ -66,7 +67,9 @@ impl Analysis for Waits<'_> {
 
     fn block(&self, id: BlockId, block: &Block, waiting: &mut bool) {
         let mut state = self.facts.at(self.index, id);
-        block.stmts.iter().for_each(|stmt| drop(step(stmt, &mut state, waiting)));
+        for stmt in &block.stmts {
+            step(stmt, &mut state, waiting);
+        }
     }
 }
 
@@ -80,7 +83,8 @@ fn step(stmt: &Stmt, state: &mut Modal, waiting: &mut bool) -> bool {
     let switched = named.is_some() && is_on(was) != is_on(named);
     let due = *waiting || switched;
     let arc = due && is_arc(nc, state);
-    *waiting = due && (!goes(nc) || stmt.site.skip.is_some() && *waiting);
+    // A block that may be skipped leaves what was due before it.
+    *waiting = due && (!goes(nc, state) || *waiting && stmt.site.skip.is_some());
     arc
 }
 
@@ -88,12 +92,17 @@ fn step(stmt: &Stmt, state: &mut Modal, waiting: &mut bool) -> bool {
 fn is_arc(nc: &Nc, after: &Modal) -> bool {
     let turns =
         after.op(Group::Motion).is_some_and(Op::is_arc) && !after.op(Group::Cycle).is_some_and(Op::is_cycle);
-    turns && goes(nc)
+    turns && goes(nc, after)
 }
 
 /// True for a block that moves in the plane.
-fn goes(nc: &Nc) -> bool {
+fn goes(nc: &Nc, after: &Modal) -> bool {
+    let plane = match after.op(Group::Plane) {
+        Some(Op::PlaneZx) => [Role::Z, Role::X],
+        Some(Op::PlaneYz) => [Role::Y, Role::Z],
+        _ => [Role::X, Role::Y],
+    };
     let centre = [Role::ArcI, Role::ArcJ, Role::ArcK].iter().any(|role| nc.word(*role).is_some());
-    let across = [Role::X, Role::Y].iter().any(|role| nc.word(*role).is_some());
+    let across = plane.iter().any(|role| nc.word(*role).is_some());
     (centre || nc.moves() && across) && !nc.ops().any(Op::takes_axes)
 }

@@ -1,6 +1,7 @@
 //! Work offsets, tool lengths and positions.
 
 pub(in crate::legalize) mod active_offsets;
+pub(in crate::legalize) mod arc_starts;
 pub(in crate::legalize) mod external;
 pub(in crate::legalize) mod kept_length;
 pub(in crate::legalize) mod kept_radius;

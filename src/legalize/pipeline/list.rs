@@ -20,7 +20,7 @@ use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{joined, start};
-use crate::legalize::offsets::{missing_length, offset_rows, position_length, tool_word};
+use crate::legalize::offsets::{arc_starts, missing_length, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, modal_reads, output_codes, output_states, probe_points, signals,
@@ -171,6 +171,8 @@ const SOURCE: &[Pass] = &[
         missing_length::run,
     )
     .when(missing_length::concerns),
+    Pass::reports("arc-starts", "refuses cutter compensation that begins or ends on an arc", arc_starts::run)
+        .when(arc_starts::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];

@@ -65,3 +65,15 @@ fn a_length_without_a_number_is_doubted() {
         assert_eq!((doubts(&fanuc(&text), never), doubts(&haas(&text), never)), (doubted, doubted));
     }
 }
+
+#[test]
+fn compensation_begins_and_ends_on_straight_moves() {
+    let stops = |blocks: &str| {
+        let text = format!("O1\nG21G90G17G40\nG0X0Y0\n{blocks}\nM30\n");
+        [fanuc(&text), haas(&text)].map(|run| matches!(run.end, End::Alarm { .. }))
+    };
+    assert_eq!(stops("G41D1G1X2.F10.\nG2X4.R1.\nG40G1X6."), [false; 2]);
+    assert_eq!(stops("G41D1G3X2.R1.F10."), [true; 2]);
+    assert_eq!(stops("G41D1G1X2.F10.\nG40G2X4.R1."), [true; 2]);
+    assert_eq!(stops("G41D1\nZ1.\nG3X2.R1.F10."), [true; 2]);
+}
