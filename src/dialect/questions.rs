@@ -308,6 +308,7 @@ questions! {
     LengthWordPicksRadius "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too", if "said";
     LengthNeverNamed "length.never.named" OneOf(&["zero", "tool", "unknown"]), "the tool length that its code takes where no number was ever named: none, or that of the tool in the spindle", if "op:length.plus";
     RadiusStartsOnArc "radius.starts.on.arc" YES, "cutter compensation may begin and end on an arc", if "said";
+    RadiusStillBlocks "radius.still.blocks" YES, "blocks without a move may stand between moves with cutter compensation, however many", if "said";
     ToolChangeWord "tool.change.word" OneOf(&["m6", "t", "unknown"]), "the word that changes the tool";
     ToolWordAgain "tool.word.again" OneOf(&["changes", "skipped", "unknown"]), "what a word that changes the tool does for the tool in the spindle", if "behaviour:tool.change.word=t";
     ToolWordSelectsLength "tool.word.selects.length" YES, "the tool word brings its length offset into force";

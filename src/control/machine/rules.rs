@@ -132,6 +132,8 @@ pub struct Rules {
     pub unnamed_length_is_tools: Fact<bool>,
     /// Cutter compensation may begin and end on an arc.
     pub radius_starts_on_arc: Fact<bool>,
+    /// Blocks without a move may stand between compensated moves.
+    pub still_blocks: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
     pub length_after_reference: Fact<LengthAfter>,
@@ -258,6 +260,8 @@ impl Rules {
                 .or_silent(control, Question::LengthNeverNamed),
             radius_starts_on_arc: yes(control, Question::RadiusStartsOnArc, true)
                 .or_silent(control, Question::RadiusStartsOnArc),
+            still_blocks: yes(control, Question::RadiusStillBlocks, true)
+                .or_silent(control, Question::RadiusStillBlocks),
             end_cancels_length: yes(control, Question::EndCancelsLength, false),
             reference_takes_all: yes(control, Question::ReferenceAllAxes, false),
             length_after_reference: fact(control, Question::ReferenceLength, length_after, LengthAfter::Kept),

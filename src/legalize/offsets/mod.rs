@@ -11,6 +11,7 @@ pub(in crate::legalize) mod offset_rows;
 pub(in crate::legalize) mod position_length;
 pub(in crate::legalize) mod radius_words;
 pub(in crate::legalize) mod set_position;
+pub(in crate::legalize) mod still_blocks;
 pub(in crate::legalize) mod table_writes;
 pub(in crate::legalize) mod tool_lengths;
 pub(in crate::legalize) mod tool_word;
