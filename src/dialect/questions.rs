@@ -260,6 +260,7 @@ questions! {
     CycleR0Kept "cycle.r0.kept" YES, "a drilling cycle takes its retract plane from the variable that holds it";
     RotationRunsCycle "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place", if "op:rotate.on";
     RotationDirection "rotation.direction" OneOf(&["ccw", "cw", "unknown"]), "which way a positive rotation turns", if "op:rotate.on";
+    RotationIncrements "rotation.increments" OneOf(&["tool", "unknown"]), "the centre of a rotation for increments before the first absolute word after its block: where the tool is", if "op:rotate.on";
     MCodesPerBlock "m.codes.per.block" OneOf(&["1", "3", "any", "unknown"]), "how many M codes a block may have";
     MForwardActs "m.forward.acts" WHEN, "when the code that turns the spindle clockwise acts, beside a move", if "said";
     MStartActs "m.start.acts" WHEN, "when a code that starts spindle or coolant acts, beside a move";

@@ -66,6 +66,8 @@ pub struct Machine {
     /// Program coordinates, millimetres, at which the last rotation found the machine: without
     /// the rotation before it.
     unturned: Axes,
+    /// True where a rotation with its centre began, and no absolute word followed yet.
+    fresh_rotation: bool,
     work_offsets: Table<Axes>,
     inch: bool,
     /// True once the program named its unit.
@@ -132,6 +134,7 @@ impl Machine {
             frame: Frame::new(scenario),
             stale: false,
             unturned: scenario.start,
+            fresh_rotation: false,
             work_offsets: scenario.work_offsets.clone(),
             inch: scenario.inch.unwrap_or(control.units() == Some(Units::Inch)),
             unit_named: false,

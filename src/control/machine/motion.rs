@@ -98,6 +98,12 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     if takes_axes(command) {
         return Ok(false);
     }
+    if machine.fresh_rotation && command.has_axes() {
+        if machine.incremental {
+            machine.rules.first_increments.ask(trace);
+        }
+        machine.fresh_rotation = machine.incremental;
+    }
     if drills {
         return cycle::run(machine, command, trace).map(|()| false);
     }

@@ -111,6 +111,8 @@ pub struct Rules {
     pub cycle_runs_by_depth: Fact<bool>,
     pub rotation_runs_cycle: Fact<bool>,
     pub rotation_is_ccw: Fact<bool>,
+    /// Increments right after a rotation turn about where the tool is.
+    pub first_increments: Fact<()>,
     /// Drilling cycles run in any plane; else under G17 alone.
     pub cycles_in_any_plane: Fact<bool>,
     /// The time of a wait is that of the cycle in force too.
@@ -227,6 +229,8 @@ impl Rules {
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),
             cycle_runs_by_depth: yes(control, Question::CycleRunsByDepth, false),
             rotation_runs_cycle: yes(control, Question::RotationRunsCycle, false),
+            first_increments: fact(control, Question::RotationIncrements, only("tool"), ())
+                .or_silent(control, Question::RotationIncrements),
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
             cycles_in_any_plane: fact(control, Question::CyclePlane, word("any", "xy"), true)
                 .or_silent(control, Question::CyclePlane),

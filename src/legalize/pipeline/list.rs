@@ -19,7 +19,7 @@ use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::{joined, start};
+use crate::legalize::moves::{first_increments, joined, start};
 use crate::legalize::offsets::{arc_starts, missing_length, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops};
 use crate::legalize::variables::{
@@ -173,6 +173,8 @@ const SOURCE: &[Pass] = &[
     .when(missing_length::concerns),
     Pass::reports("arc-starts", "refuses cutter compensation that begins or ends on an arc", arc_starts::run)
         .when(arc_starts::concerns),
+    Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
+        .when(first_increments::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];

@@ -77,3 +77,13 @@ fn compensation_begins_and_ends_on_straight_moves() {
     assert_eq!(stops("G41D1G1X2.F10.\nG40G2X4.R1."), [true; 2]);
     assert_eq!(stops("G41D1\nZ1.\nG3X2.R1.F10."), [true; 2]);
 }
+
+#[test]
+fn increments_right_after_a_rotation_turn_about_the_tool() {
+    let text = "O1\nG21G90G17\nG0X3.Y0\nG68X1.Y1.R90.\nG91G1X1.F10.\nG69\nM30\n";
+    let increments = "behaviour:rotation.increments";
+    // From (3, 0) one along X, turned by 90 degrees: one along Y.
+    let end = moves(&fanuc(text)).pop().expect("a move");
+    assert!((end[0] - 3.0).abs() < 1e-9 && (end[1] - 1.0).abs() < 1e-9, "{end:?}");
+    assert_eq!((doubts(&fanuc(text), increments), doubts(&haas(text), increments)), (false, true));
+}
