@@ -57,6 +57,11 @@ impl Op {
         }
     }
 
+    /// True for a move along an arc.
+    pub const fn is_arc(self) -> bool {
+        matches!(self, Self::ArcCw | Self::ArcCcw | Self::ArcTangent)
+    }
+
     /// True for a drilling cycle that stays in force.
     pub const fn is_cycle(self) -> bool {
         use Op::*;

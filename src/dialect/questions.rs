@@ -237,6 +237,10 @@ questions! {
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
+    CyclePlane "cycle.plane" OneOf(&["any", "xy", "unknown"]), "the planes that drilling cycles run in: any, or that of G17 alone", if "said";
+    CycleDwellShared "cycle.dwell.shared" YES, "the time of a wait while a drilling cycle is in force is the wait of its next holes too", if "said";
+    CycleWordsAlone "cycle.words.alone" OneOf(&["kept", "ignored", "unknown"]), "what words of a drilling cycle do in a block that drills nothing: they are kept for the next holes, or ignored", if "role:cycle.dwell or role:cycle.q";
+    CycleEndsByArc "cycle.ends.by.arc" YES, "an arc code ends the drilling cycle in force, where other motion codes do", if "said";
     RoughingEnds "roughing.ends" OneOf(&["along", "levels", "unknown"]), "how the roughing of a contour ends: with a pass along it, always, or level by \
                                                     level, and along it only with an allowance for that pass", if "op:contour.turning";
     RoughingValleys "roughing.valleys" OneOf(&["axes", "word"]), "what says that the contour of a roughing has valleys: the axes that its first block names, or a word of the cycle", if "op:contour.turning";
@@ -258,6 +262,7 @@ questions! {
     CycleR0Kept "cycle.r0.kept" YES, "a drilling cycle takes its retract plane from the variable that holds it";
     RotationRunsCycle "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place", if "op:rotate.on";
     RotationDirection "rotation.direction" OneOf(&["ccw", "cw", "unknown"]), "which way a positive rotation turns", if "op:rotate.on";
+    RotationIncrements "rotation.increments" OneOf(&["tool", "unknown"]), "the centre of a rotation for increments before the first absolute word after its block: where the tool is", if "op:rotate.on";
     MCodesPerBlock "m.codes.per.block" OneOf(&["1", "3", "any", "unknown"]), "how many M codes a block may have";
     MForwardActs "m.forward.acts" WHEN, "when the code that turns the spindle clockwise acts, beside a move", if "said";
     MStartActs "m.start.acts" WHEN, "when a code that starts spindle or coolant acts, beside a move";
@@ -304,6 +309,9 @@ questions! {
     OffsetActiveImmediately "offset.active.immediately" YES, "a work offset that is written while selected counts at once";
     RadiusOffsetActiveTool "radius.offset.active.tool" YES, "cutter compensation without an offset word takes the active tool's", if "said";
     LengthWordPicksRadius "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too", if "said";
+    LengthNeverNamed "length.never.named" OneOf(&["zero", "tool", "unknown"]), "the tool length that its code takes where no number was ever named: none, or that of the tool in the spindle", if "op:length.plus";
+    RadiusStartsOnArc "radius.starts.on.arc" YES, "cutter compensation may begin and end on an arc", if "said";
+    RadiusStillBlocks "radius.still.blocks" YES, "blocks without a move may stand between moves with cutter compensation, however many", if "said";
     ToolChangeWord "tool.change.word" OneOf(&["m6", "t", "unknown"]), "the word that changes the tool";
     ToolWordAgain "tool.word.again" OneOf(&["changes", "skipped", "unknown"]), "what a word that changes the tool does for the tool in the spindle", if "behaviour:tool.change.word=t";
     ToolWordSelectsLength "tool.word.selects.length" YES, "the tool word brings its length offset into force";

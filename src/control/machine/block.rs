@@ -6,7 +6,7 @@
 use super::{Command, Machine, auxiliary, lathe, motion, offsets, rigid, state, tooling};
 use crate::canon::{Group, Op, Pause, Role};
 use crate::control::outcome::Stop;
-use crate::control::trace::{EventKind, Trace};
+use crate::control::trace::{EventKind, Side, Trace};
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     let unrolled = if machine.rules.lathe { lathe::surface::block(machine, command, trace)? } else { None };
@@ -22,7 +22,11 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     let before = auxiliary::Before::of(machine, trace);
     tooling::tool(machine, command, trace);
     auxiliary::with_start(machine, command, trace);
+    let compensated = machine.side != Side::Off;
     tooling::compensation(machine, command, trace);
+    if compensated && machine.side != Side::Off && is_still(command) {
+        machine.rules.still_blocks.ask(trace);
+    }
     state::frames(machine, command, trace);
     for &op in &command.ops {
         one_shot(machine, op, command, trace)?;
@@ -44,6 +48,12 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         }
     }
     Ok(())
+}
+
+/// True for a block that moves nothing.
+fn is_still(command: &Command) -> bool {
+    let turns = [Role::ArcI, Role::ArcJ, Role::ArcK].iter().any(|role| command.word(*role).is_some());
+    !command.is_empty() && !command.has_axes() && !turns
 }
 
 /// True where a block places something by the tool length, in coordinates of the program.
@@ -137,6 +147,10 @@ fn dwell(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         .unwrap_or(0.0)
         .max(0.0);
     machine.clock += seconds * 1000.0;
+    let in_cycle = machine.cycle.is_some() && !command.has(Op::CycleOff) && !machine.rules.lathe;
+    if in_cycle && machine.rules.dwell_is_of_cycle.peek() {
+        machine.cycle.iter_mut().for_each(|cycle| cycle.waited = Some(seconds));
+    }
     machine.lathe.last_dwell = Some(seconds);
     trace.push(EventKind::Dwell { seconds });
 }

@@ -5,7 +5,7 @@ use super::{Command, Machine, expand, inverse, lathe};
 use crate::canon::{Op, Role};
 use crate::control::entry::Drilling;
 use crate::control::outcome::Stop;
-use crate::control::trace::{EventKind, Trace};
+use crate::control::trace::{EventKind, Plane, Trace};
 
 /// A cycle in force. Depths are program coordinates along the drilling axis, millimetres.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub(super) struct Cycle {
     pub z: Option<(f64, bool)>,
     pub peck: Option<f64>,
     pub dwell: f64,
+    /// The time of a wait since the cycle was told its dwell, where that may be the dwell too.
+    pub waited: Option<f64>,
     pub without_dwell: bool,
     pub first_peck: Option<f64>,
     pub less: f64,
@@ -52,7 +54,12 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     let Some(cycle) = &mut machine.cycle else {
         return Err(Stop::unnamed("no drilling cycle is in force"));
     };
-    cycle.read(command, (unit, incremental), along);
+    let alone = !command.has_axes() && !command.has(Op::CycleHere) && is_alone(command);
+    let rules = &machine.rules;
+    let drills = begins.is_some() && rules.cycle_runs_without_axes.peek();
+    if !alone || drills || rules.lone_words_kept.ask(trace) {
+        cycle.read(command, (unit, incremental), along);
+    }
     machine.round_cycle(command, along, begins.is_some());
     machine.round_in(&across(command, along), trace);
     let names = |axis: usize| axis != along;
@@ -95,6 +102,16 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     Ok(())
 }
 
+/// True for words of a cycle without a plane or a count of it.
+fn is_alone(command: &Command) -> bool {
+    use Role::{CycleDwell, CycleI, CycleJ, CycleQ, PeckClear, PeckFirst, PeckLeast, PeckLess};
+    let of_cycle = |role: Role| {
+        matches!(role, CycleDwell | CycleQ | CycleI | CycleJ | PeckFirst | PeckLess | PeckLeast | PeckClear)
+    };
+    let planes = command.word(Role::CycleR).is_some() || command.word(Role::Repeat).is_some();
+    !planes && command.words.iter().any(|(role, _)| of_cycle(*role))
+}
+
 /// A block that stores a cycle and does not drill still goes to its place; what it does with a count of zero is asked.
 fn place_only(machine: &mut Machine, command: &Command, count: u32, trace: &mut Trace) {
     let (_, _, along) = machine.plane.axes();
@@ -122,9 +139,18 @@ pub(super) fn across(command: &Command, along: usize) -> Command {
 pub(super) fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
     let Some(mut cycle) = machine.cycle.clone() else { return Ok(()) };
     inverse::cycle(machine)?;
+    if machine.plane != Plane::Xy && !machine.rules.lathe && !machine.rules.cycles_in_any_plane.ask(trace) {
+        return Err(Stop::unnamed(
+            "a drilling cycle under G18 or G19, and this control drills under G17 alone",
+        ));
+    }
     if cycle.without_dwell {
         // The dwell that an earlier cycle was given is none of this one.
         cycle.dwell = 0.0;
+    } else if let Some(waited) = cycle.waited
+        && machine.rules.dwell_is_of_cycle.ask(trace)
+    {
+        cycle.dwell = waited;
     }
     if machine.frame.scale.is_some() {
         machine.rules.scale_reaches_cycle.ask(trace);
@@ -167,6 +193,7 @@ impl Cycle {
             z: None,
             peck: None,
             dwell: 0.0,
+            waited: None,
             without_dwell: false,
             first_peck: None,
             less: 0.0,
@@ -194,6 +221,7 @@ impl Cycle {
         }
         self.peck = length(Role::CycleQ).or(self.peck);
         self.dwell = command.word(Role::CycleDwell).map_or(self.dwell, |ms| ms / 1000.0);
+        self.waited = self.waited.filter(|_| command.word(Role::CycleDwell).is_none());
         self.without_dwell = command.without_dwell;
         self.first_peck = length(Role::PeckFirst).or(self.first_peck);
         self.less = length(Role::PeckLess).unwrap_or(self.less);

@@ -44,6 +44,7 @@ impl Machine {
         if let Some(number) = entry.length {
             self.length_op = if entry.length_minus { Op::LengthMinus } else { Op::LengthPlus };
             self.length_offset = number;
+            self.length_named = true;
             self.frame.length = self.length_value();
             let lost = [
                 (entry.length_lost, LostBy::Reference),

@@ -68,6 +68,8 @@ pub struct Machine {
     /// Program coordinates, millimetres, at which the last rotation found the machine: without
     /// the rotation before it.
     unturned: Axes,
+    /// True where a rotation with its centre began, and no absolute word followed yet.
+    fresh_rotation: bool,
     work_offsets: Table<Axes>,
     inch: bool,
     /// True once the program named its unit.
@@ -91,9 +93,13 @@ pub struct Machine {
     tools: Table<Tool>,
     length_op: Op,
     length_offset: u32,
+    /// True once the number of a length was named.
+    length_named: bool,
     /// What may have cancelled the length since the program named it.
     length_lost: Option<Lost>,
     side: Side,
+    /// True where compensation was switched on or off, and no move in the plane followed yet.
+    side_switched: bool,
     radius_offset: u32,
     /// True where the word of the length named it.
     radius_with_length: bool,
@@ -131,6 +137,7 @@ impl Machine {
             frame: Frame::new(scenario),
             stale: false,
             unturned: scenario.start,
+            fresh_rotation: false,
             work_offsets: scenario.work_offsets.clone(),
             inch: scenario.inch.unwrap_or(control.units() == Some(Units::Inch)),
             unit_named: false,
@@ -152,8 +159,10 @@ impl Machine {
             tools: scenario.tools.clone(),
             length_op: Op::LengthOff,
             length_offset: 0,
+            length_named: false,
             length_lost: None,
             side: Side::Off,
+            side_switched: false,
             radius_offset: 0,
             radius_with_length: false,
             path_mode: Op::CuttingMode,

@@ -37,7 +37,13 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     if let Some(op) = command.of(Group::Motion) {
         machine.motion = op;
         machine.lathe.after_cycle = false;
-        if machine.cycle.is_some() && machine.rules.motion_ends_cycle.ask(trace) {
+        let arc_goes_on = |machine: &Machine, trace: &mut Trace| {
+            op.is_arc() && !command.has(Op::CycleOff) && !machine.rules.arc_ends_cycle.ask(trace)
+        };
+        if machine.cycle.is_some()
+            && machine.rules.motion_ends_cycle.ask(trace)
+            && !arc_goes_on(machine, trace)
+        {
             machine.cycle = None;
         }
     }
@@ -92,6 +98,12 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     if takes_axes(command) {
         return Ok(false);
     }
+    if machine.fresh_rotation && command.has_axes() {
+        if machine.incremental {
+            machine.rules.first_increments.ask(trace);
+        }
+        machine.fresh_rotation = machine.incremental;
+    }
     if drills {
         return cycle::run(machine, command, trace).map(|()| false);
     }
@@ -126,6 +138,12 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
 /// The move of a block, once.
 fn once(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     inverse::check(machine, command)?;
+    let arcs = matches!(machine.motion, Op::ArcCw | Op::ArcCcw) && !command.has(Op::RapidOnce);
+    if machine.side_switched && arcs && !machine.rules.radius_starts_on_arc.ask(trace) {
+        return Err(Stop::unnamed("cutter compensation begins or ends on an arc"));
+    }
+    let (first, second, _) = machine.plane.axes();
+    machine.side_switched &= !arcs && !command.axes().any(|(axis, _)| axis == first || axis == second);
     match machine.motion {
         _ if command.has(Op::RapidOnce) => {
             let to = machine.target(command);

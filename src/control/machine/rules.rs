@@ -111,7 +111,17 @@ pub struct Rules {
     pub cycle_runs_by_depth: Fact<bool>,
     pub rotation_runs_cycle: Fact<bool>,
     pub rotation_is_ccw: Fact<bool>,
+    /// Increments right after a rotation turn about where the tool is.
+    pub first_increments: Fact<()>,
+    /// Drilling cycles run in any plane; else under G17 alone.
+    pub cycles_in_any_plane: Fact<bool>,
+    /// The time of a wait is that of the cycle in force too.
+    pub dwell_is_of_cycle: Fact<bool>,
+    /// Words of a cycle are kept in a block that drills nothing.
+    pub lone_words_kept: Fact<bool>,
     pub motion_ends_cycle: Fact<bool>,
+    /// An arc does, where other codes of motion do.
+    pub arc_ends_cycle: Fact<bool>,
     pub offset_acts_at_once: Fact<bool>,
     pub radius_table: Fact<RadiusTable>,
     pub tool_word_changes: Fact<bool>,
@@ -120,6 +130,12 @@ pub struct Rules {
     pub tool_word_selects_length: Fact<bool>,
     pub cutter_takes_tool: Fact<bool>,
     pub length_picks_radius: Fact<bool>,
+    /// Where no number of a length was ever named, its code takes that of the tool in the spindle.
+    pub unnamed_length_is_tools: Fact<bool>,
+    /// Cutter compensation may begin and end on an arc.
+    pub radius_starts_on_arc: Fact<bool>,
+    /// Blocks without a move may stand between compensated moves.
+    pub still_blocks: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
     pub length_after_reference: Fact<LengthAfter>,
@@ -213,9 +229,24 @@ impl Rules {
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),
             cycle_runs_by_depth: yes(control, Question::CycleRunsByDepth, false),
             rotation_runs_cycle: yes(control, Question::RotationRunsCycle, false),
+            first_increments: fact(control, Question::RotationIncrements, only("tool"), ())
+                .or_silent(control, Question::RotationIncrements),
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
+            cycles_in_any_plane: fact(control, Question::CyclePlane, word("any", "xy"), true)
+                .or_silent(control, Question::CyclePlane),
+            dwell_is_of_cycle: fact(
+                control,
+                Question::CycleDwellShared,
+                |value| Some(value != "false"),
+                false,
+            )
+            .or_silent(control, Question::CycleDwellShared),
+            lone_words_kept: fact(control, Question::CycleWordsAlone, word("kept", "ignored"), true)
+                .or_silent(control, Question::CycleWordsAlone),
             motion_ends_cycle: yes(control, Question::CycleEndsByMotion, true)
                 .or_silent(control, Question::CycleEndsByMotion),
+            arc_ends_cycle: fact(control, Question::CycleEndsByArc, |value| Some(value == "true"), true)
+                .or_silent(control, Question::CycleEndsByArc),
             offset_acts_at_once: yes(control, Question::OffsetActiveImmediately, true),
             // Where it is a setting nobody stated, as conversions take it.
             radius_table: fact(control, Question::RadiusOffsetTable, table, RadiusTable::Diameter),
@@ -229,6 +260,12 @@ impl Rules {
             tool_word_selects_length: yes(control, Question::ToolWordSelectsLength, false),
             cutter_takes_tool: yes(control, Question::RadiusOffsetActiveTool, false),
             length_picks_radius: yes(control, Question::LengthWordPicksRadius, false),
+            unnamed_length_is_tools: fact(control, Question::LengthNeverNamed, word("tool", "zero"), false)
+                .or_silent(control, Question::LengthNeverNamed),
+            radius_starts_on_arc: yes(control, Question::RadiusStartsOnArc, true)
+                .or_silent(control, Question::RadiusStartsOnArc),
+            still_blocks: yes(control, Question::RadiusStillBlocks, true)
+                .or_silent(control, Question::RadiusStillBlocks),
             end_cancels_length: yes(control, Question::EndCancelsLength, false),
             reference_takes_all: yes(control, Question::ReferenceAllAxes, false),
             length_after_reference: fact(control, Question::ReferenceLength, length_after, LengthAfter::Kept),

@@ -82,7 +82,10 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
                 }
             }
             Op::RotateOn => rotate(machine, command, trace),
-            Op::RotateOff => machine.frame.rotation = None,
+            Op::RotateOff => {
+                machine.frame.rotation = None;
+                machine.fresh_rotation = false;
+            }
             Op::MirrorOn => {
                 for (axis, value) in machine.named_axes(command) {
                     let by_word = value == 0.0 || machine.rules.mirrors_about_word.ask(trace);
@@ -108,6 +111,7 @@ fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let (first, second, _) = machine.plane.axes();
     machine.unturned = machine.frame.program(&machine.position);
     machine.frame.rotation = None;
+    machine.fresh_rotation = command.has_axes();
     let mut centre = machine.frame.program(&machine.position);
     for (axis, value) in machine.named_axes(command) {
         centre[axis] = if machine.incremental { centre[axis] + value } else { value };

@@ -51,6 +51,7 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
         machine.rules.tool_word_selects_length.ask(trace);
         machine.length_op = Op::LengthPlus;
         machine.length_offset = machine.tool_ready as u32;
+        machine.length_named = true;
         apply_length(machine, trace);
     }
 }
@@ -78,6 +79,11 @@ fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     }
     if let Some(number) = command.number(Role::LengthOffset) {
         machine.length_offset = number;
+        machine.length_named = true;
+    }
+    let begins = op.is_some_and(|op| op != Op::LengthOff);
+    if begins && !machine.length_named && machine.rules.unnamed_length_is_tools.ask(trace) {
+        machine.length_offset = machine.tool as u32;
     }
     let renewed = command.word(Role::LengthOffset).is_some() && machine.length_op != Op::LengthOff;
     if op.is_some() || renewed {
@@ -147,8 +153,10 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         return super::lathe::turret::nose(machine, side, trace);
     }
     if side.is_some() || renewed {
+        let was_off = machine.side == Side::Off;
         machine.side = side.unwrap_or(machine.side);
         let off = machine.side == Side::Off;
+        machine.side_switched |= was_off != off;
         if machine.radius_with_length && !off {
             machine.rules.length_picks_radius.ask(trace);
         }

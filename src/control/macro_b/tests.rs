@@ -4,6 +4,7 @@ mod arguments;
 mod digits;
 mod flow;
 mod lathes;
+mod mills;
 mod programs;
 mod values;
 

@@ -87,6 +87,8 @@ pub struct Modal {
     pub length_lost: LengthLost,
     /// True where some way here named a tool length.
     length_named: bool,
+    /// True where every way here named the number of one.
+    pub length_word: bool,
     feed: Feed,
     /// What the last tool word is to the tool in the spindle.
     pub(crate) tool_word: ToolWord,
@@ -104,6 +106,7 @@ impl Modal {
             may_be_cancelled: false,
             length_lost: LengthLost::default(),
             length_named: false,
+            length_word: false,
             feed: Feed::Unknown,
             tool_word: ToolWord::Unknown,
             calls: Some(Vec::new()),
@@ -237,6 +240,7 @@ impl Modal {
     /// Which row the tool length is taken from, and what may cancel it.
     fn step_length(&mut self, nc: &Nc) {
         let row = nc.word(Role::LengthOffset);
+        self.length_word |= row.is_some();
         let setting = &mut self.settings[Group::LengthComp as usize];
         if let (Setting::Known(op @ (Op::LengthPlus | Op::LengthMinus), _), Some(row)) = (*setting, row) {
             *setting = Setting::Known(op, row.constant().filter(|row| *row >= 0.0).map(|row| row as u32));
@@ -323,6 +327,8 @@ impl Lattice for Modal {
         let tool_word = self.tool_word.join(other.tool_word);
         changed |= std::mem::replace(&mut self.tool_word, tool_word) != tool_word;
         changed |= self.length_lost.join(other.length_lost);
+        changed |= self.length_word && !other.length_word;
+        self.length_word &= other.length_word;
         changed |= other.length_named && !self.length_named;
         self.length_named |= other.length_named;
         if self.calls != other.calls && self.calls.is_some() {

@@ -1,6 +1,7 @@
 //! Moves, coordinates and units.
 
 pub(in crate::legalize) mod bare_arcs;
+pub(in crate::legalize) mod first_increments;
 pub(in crate::legalize) mod home;
 pub(in crate::legalize) mod increments;
 pub(in crate::legalize) mod inverse_feeds;

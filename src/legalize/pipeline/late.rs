@@ -11,6 +11,7 @@ use crate::legalize::features::Feature;
 use crate::legalize::lathe::contours;
 use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
 use crate::legalize::moves::start;
+use crate::legalize::offsets::still_blocks;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
 use crate::legalize::registers::{allocate, clear, frames, outside, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
@@ -158,6 +159,13 @@ pub(super) const LAYOUT: &[Pass] = &[
     Pass::reports("contours-written", "checks that the contours of cycles are still whole", contours::run)
         .when(|c, _| contours::concerns(c))
         .needs(&["contours", "sequence-numbers", "split-expressions"]),
+    Pass::reports(
+        "still-blocks",
+        "tells of blocks without a move between compensated moves",
+        still_blocks::run,
+    )
+    .when(still_blocks::concerns)
+    .needs(&["split-expressions"]),
     Pass::reports(
         "target-facts",
         "reports unconfirmed facts of the target that programs depend on",

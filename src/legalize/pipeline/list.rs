@@ -14,13 +14,13 @@ use crate::legalize::calls::{
 use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
 };
-use crate::legalize::cycles::stored_places;
+use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, lone_words, stored_places};
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::{joined, start};
-use crate::legalize::offsets::{offset_rows, position_length, tool_word};
+use crate::legalize::moves::{first_increments, joined, start};
+use crate::legalize::offsets::{arc_starts, missing_length, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, dates, modal_reads, most_values, output_codes, output_states,
@@ -153,6 +153,28 @@ const SOURCE: &[Pass] = &[
         stored_places::run,
     )
     .when(stored_places::concerns),
+    Pass::reports("cycle-arcs", "refuses arcs under drilling cycles that they do not end", cycle_arcs::run)
+        .when(cycle_arcs::concerns),
+    Pass::reports("drill-planes", "checks drilling cycles in other planes than G17", drill_planes::run)
+        .when(drill_planes::concerns),
+    Pass::reports(
+        "cycle-waits",
+        "refuses waits inside drilling cycles whose time is the cycle's too",
+        cycle_waits::run,
+    )
+    .when(cycle_waits::concerns),
+    Pass::edits("lone-words", "words of a cycle that the source ignores go", lone_words::run)
+        .when(lone_words::concerns),
+    Pass::reports(
+        "missing-length",
+        "tells of tool lengths whose number no block ever named",
+        missing_length::run,
+    )
+    .when(missing_length::concerns),
+    Pass::reports("arc-starts", "refuses cutter compensation that begins or ends on an arc", arc_starts::run)
+        .when(arc_starts::concerns),
+    Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
+        .when(first_increments::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];

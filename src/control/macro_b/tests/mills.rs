@@ -1,0 +1,89 @@
+//! Cycles and compensation of mills, where controls part or a program slips.
+
+use super::*;
+
+fn arcs(run: &Run) -> usize {
+    run.events.iter().filter(|event| matches!(event.what, EventKind::Arc { .. })).count()
+}
+
+/// True where a run rests on a fact.
+fn doubts(run: &Run, fact: &str) -> bool {
+    run.events.iter().any(|event| matches!(&event.what, EventKind::Unsure { fact: found } if found == fact))
+}
+
+const ARC: &str = "O1\nG21G90G17\nG0X0Y0Z5.\nG81X1.Y1.Z-5.R1.F10.\nG2X2.Y2.R1.\nM30\n";
+
+#[test]
+fn an_arc_ends_a_drilling_cycle_on_a_fanuc_and_nobody_says_it_of_a_haas() {
+    let ends = "behaviour:cycle.ends.by.arc";
+    assert_eq!((arcs(&fanuc(ARC)), doubts(&fanuc(ARC), ends)), (1, false));
+    assert_eq!((arcs(&haas(ARC)), doubts(&haas(ARC), ends)), (0, true));
+}
+
+#[test]
+fn a_haas_drills_under_g17_alone() {
+    let text = |plane: &str| format!("O1\nG21G90{plane}\nG0X0Y5.Z5.\nG81X1.Z1.Y-5.R1.F10.\nG80\nM30\n");
+    assert_eq!(fanuc(&text("G18")).end, End::Ended);
+    assert_eq!(haas(&text("G17")).end, End::Ended);
+    assert!(matches!(haas(&text("G18")).end, End::Alarm { .. }));
+    assert!(matches!(haas(&text("G19")).end, End::Alarm { .. }));
+}
+
+/// The waits at the bottoms of holes, seconds.
+fn waits(run: &Run) -> Vec<f64> {
+    let waits = run.events.iter().filter_map(|event| match &event.what {
+        EventKind::Dwell { seconds } => Some(*seconds),
+        _ => None,
+    });
+    waits.collect()
+}
+
+#[test]
+fn a_wait_inside_a_drilling_cycle_is_the_cycles_too_on_a_haas_by_a_report() {
+    let text = "O1\nG21G90G17\nG0X0Y0Z5.\nG82X1.Y1.Z-5.R1.P500F10.\nG4P2000\nX2.\nG80\nM30\n";
+    let shared = "behaviour:cycle.dwell.shared";
+    assert_eq!((waits(&fanuc(text)), doubts(&fanuc(text), shared)), (vec![0.5, 2.0, 0.5], false));
+    assert_eq!((waits(&haas(text)), doubts(&haas(text), shared)), (vec![0.5, 2.0, 2.0], true));
+}
+
+#[test]
+fn words_of_a_cycle_that_drill_nothing_are_doubted() {
+    let text = "O1\nG21G90G17\nG0X0Y0Z5.\nG82X1.Y1.Z-5.R1.P500F10.\nP2000\nX2.\nG80\nM30\n";
+    let alone = "behaviour:cycle.words.alone";
+    assert!(doubts(&fanuc(text), alone) && doubts(&haas(text), alone));
+    let profile = "dialect = \"fanuc\"\n[behaviours]\n\"cycle.words.alone\" = \"ignored\"\n";
+    let control = Control::from_profile(profile).expect("a profile");
+    let run = run_on(&control, &[text], &Scenario::default());
+    assert_eq!((waits(&run), doubts(&run, alone)), (vec![0.5, 0.5], false));
+}
+
+#[test]
+fn a_length_without_a_number_is_doubted() {
+    let never = "behaviour:length.never.named";
+    for (blocks, doubted) in [("T3M6\nG43Z1.", true), ("T3M6\nG43H3Z1.\nG49\nG43Z2.", false)] {
+        let text = format!("O1\nG21G90\n{blocks}\nM30\n");
+        assert_eq!((doubts(&fanuc(&text), never), doubts(&haas(&text), never)), (doubted, doubted));
+    }
+}
+
+#[test]
+fn compensation_begins_and_ends_on_straight_moves() {
+    let stops = |blocks: &str| {
+        let text = format!("O1\nG21G90G17G40\nG0X0Y0\n{blocks}\nM30\n");
+        [fanuc(&text), haas(&text)].map(|run| matches!(run.end, End::Alarm { .. }))
+    };
+    assert_eq!(stops("G41D1G1X2.F10.\nG2X4.R1.\nG40G1X6."), [false; 2]);
+    assert_eq!(stops("G41D1G3X2.R1.F10."), [true; 2]);
+    assert_eq!(stops("G41D1G1X2.F10.\nG40G2X4.R1."), [true; 2]);
+    assert_eq!(stops("G41D1\nZ1.\nG3X2.R1.F10."), [true; 2]);
+}
+
+#[test]
+fn increments_right_after_a_rotation_turn_about_the_tool() {
+    let text = "O1\nG21G90G17\nG0X3.Y0\nG68X1.Y1.R90.\nG91G1X1.F10.\nG69\nM30\n";
+    let increments = "behaviour:rotation.increments";
+    // From (3, 0) one along X, turned by 90 degrees: one along Y.
+    let end = moves(&fanuc(text)).pop().expect("a move");
+    assert!((end[0] - 3.0).abs() < 1e-9 && (end[1] - 1.0).abs() < 1e-9, "{end:?}");
+    assert_eq!((doubts(&fanuc(text), increments), doubts(&haas(text), increments)), (false, true));
+}

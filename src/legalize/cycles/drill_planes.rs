@@ -1,0 +1,73 @@
+//! Drilling cycles in another plane than the first, where a control drills in that alone.
+//!
+//! Law: a hole goes along the axis of its plane. A control whose cycles run under G17 alone has no such hole, and of a source
+//! that has none it is not known what it does there: the program is refused. Where nobody says whether a control has one, the
+//! program rests on that it has; where the plane hangs on the path, it is for review.
+
+use crate::canon::{Group, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question, Row, Side};
+use crate::ir::{BlockId, Module, Nc};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
+use crate::text::Span;
+
+/// True if the library drills and selects planes, and a table says something of it.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let asked = |control: &Control| control.behaviour(Question::CyclePlane).is_some();
+    (asked(context.source) || asked(context.target))
+        && features.any_op(Op::is_cycle)
+        && features.any_op(|op| matches!(op, Op::PlaneZx | Op::PlaneYz))
+}
+
+/// Reports cycles in other planes.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (at, block) in program.blocks.iter().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            for stmt in &block.stmts {
+                state.step(stmt);
+                if let Some(nc) = stmt.kind.nc()
+                    && drills(nc, &state)
+                    && state.op(Group::Plane) != Some(Op::PlaneXy)
+                {
+                    report(context, index, stmt.site.span, state.op(Group::Plane).is_some());
+                }
+            }
+        }
+    }
+}
+
+/// True for a block that begins a cycle, or goes somewhere under one; `after` is what is in force after it.
+fn drills(nc: &Nc, after: &Modal) -> bool {
+    let goes_on = after.op(Group::Cycle).is_some_and(Op::is_cycle) && (nc.moves() || nc.has(Op::CycleHere));
+    nc.ops().any(Op::is_cycle) || goes_on
+}
+
+fn report(context: &mut Context<'_>, index: usize, span: Span, known: bool) {
+    for (control, side) in [(context.source, Side::Source), (context.target, Side::Target)] {
+        let Some(row) = control.behaviour(Question::CyclePlane).filter(|row| row.value != "any") else {
+            continue;
+        };
+        if !known {
+            let what = format!(
+                "a drilling cycle in a plane that hangs on the path: make sure that it is G17, which the {side}'s cycles need"
+            );
+            context.add_once(index, "cycle.plane", Diagnostic::new(Code::Conditional, span, what));
+            return;
+        }
+        if row.value == "xy" {
+            let source = &row.origin().source;
+            let what = format!(
+                "a drilling cycle under G18 or G19: the {side} drills under G17 alone ({source}). Write the moves of the holes"
+            );
+            context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()));
+            return;
+        }
+        match side {
+            Side::Source => context.rests_on_source(index, span, Question::CyclePlane),
+            Side::Target => context.rests_on_target(index, span, Question::CyclePlane),
+        }
+    }
+}

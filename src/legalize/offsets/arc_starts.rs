@@ -1,0 +1,108 @@
+//! Cutter compensation that begins or ends on an arc, where a control takes that for a fault.
+//!
+//! Law: the first move after the code begins the compensation, or ends it, and it must be straight. A program that does it on an arc
+//! stops on such a control, and is refused. Counter-example: `G41 D1 G1 X10.`, then `G3`.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Machine, Question, Row, Side};
+use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
+use crate::ir::{Block, BlockId, Module, Nc, Stmt};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal, ModalFacts};
+
+/// True if the library compensates and cuts arcs, and one of the controls does not take them together.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    context.target.machine() == Machine::Mill
+        && (forbids(context.source) || forbids(context.target))
+        && features.any_op(|op| matches!(op, Op::RadiusLeft | Op::RadiusRight))
+        && features.any_op(Op::is_arc)
+}
+
+fn forbids(control: &Control) -> bool {
+    control.behaviour(Question::RadiusStartsOnArc).is_some_and(|row| row.value == "false")
+}
+
+/// Reports arcs on which compensation begins or ends.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter().enumerate() {
+        let waits = Waits { facts: &facts, index };
+        let starts = solve(&waits, program, &Cfg::of(program));
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = facts.at(index, id);
+            let mut waiting = starts.at(id).copied().unwrap_or(false);
+            for stmt in &block.stmts {
+                if step(stmt, &mut state, &mut waiting) {
+                    let side = if forbids(context.source) { Side::Source } else { Side::Target };
+                    let control = if side == Side::Source { context.source } else { context.target };
+                    let origin =
+                        control.behaviour(Question::RadiusStartsOnArc).map(|row| row.origin().source.clone());
+                    let what = format!(
+                        "cutter compensation begins or ends on this arc: the {side} stops there ({}). Begin and end it on a \
+                         straight move",
+                        origin.unwrap_or_default()
+                    );
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+                }
+            }
+        }
+    }
+}
+
+/// Whether compensation was switched, and no move in the plane followed yet, on some way.
+struct Waits<'w> {
+    facts: &'w ModalFacts,
+    index: usize,
+}
+
+impl Analysis for Waits<'_> {
+    type State = bool;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, bool)> {
+        cfg.roots().iter().map(|root| (*root, false)).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, waiting: &mut bool) {
+        let mut state = self.facts.at(self.index, id);
+        for stmt in &block.stmts {
+            step(stmt, &mut state, waiting);
+        }
+    }
+}
+
+/// Takes a statement; true where it begins or ends compensation on an arc.
+fn step(stmt: &Stmt, state: &mut Modal, waiting: &mut bool) -> bool {
+    let was = state.op(Group::RadiusComp);
+    state.step(stmt);
+    let Some(nc) = stmt.kind.nc() else { return false };
+    let is_on = |op: Option<Op>| op.is_some_and(|op| op != Op::RadiusOff);
+    let named = nc.ops().filter(|op| op.group() == Group::RadiusComp).last();
+    let switched = named.is_some() && is_on(was) != is_on(named);
+    let due = *waiting || switched;
+    let arc = due && is_arc(nc, state);
+    // A block that may be skipped leaves what was due before it.
+    *waiting = due && (!goes(nc, state) || *waiting && stmt.site.skip.is_some());
+    arc
+}
+
+/// True for a block that cuts an arc; `after` is what is in force after it.
+fn is_arc(nc: &Nc, after: &Modal) -> bool {
+    let turns =
+        after.op(Group::Motion).is_some_and(Op::is_arc) && !after.op(Group::Cycle).is_some_and(Op::is_cycle);
+    turns && goes(nc, after)
+}
+
+/// True for a block that moves in the plane.
+fn goes(nc: &Nc, after: &Modal) -> bool {
+    let plane = match after.op(Group::Plane) {
+        Some(Op::PlaneZx) => [Role::Z, Role::X],
+        Some(Op::PlaneYz) => [Role::Y, Role::Z],
+        _ => [Role::X, Role::Y],
+    };
+    let centre = [Role::ArcI, Role::ArcJ, Role::ArcK].iter().any(|role| nc.word(*role).is_some());
+    let across = plane.iter().any(|role| nc.word(*role).is_some());
+    (centre || nc.moves() && across) && !nc.ops().any(Op::takes_axes)
+}
