@@ -4,6 +4,7 @@
 //! at the first place that rests on it. Facts about vacancy matter only where a variable may be vacant; that is looked
 //! for by data flow.
 
+mod states;
 mod vacant;
 
 use crate::canon::{Func, Op, Role};
@@ -362,6 +363,10 @@ impl<'c> Found<'c> {
                     Func::Atan => self.behaviour(Question::AtanRange, span),
                     _ => {}
                 }
+            }
+            // Passes put reads of places in, which no one has looked at yet.
+            Expr::System(state, subscripts) if self.side == Side::Target => {
+                self.state(*state, subscripts, span)
             }
             Expr::Binary(BinOp::Mod, ..) => {
                 self.behaviour(Question::ModRoundsOperands, span);

@@ -119,7 +119,7 @@ impl Finding {
             Finding::Unconfirmed(state, fact, note) => {
                 let note = format!("'{state}' is taken to be in it{note}");
                 let finding = context.target.unconfirmed(Side::Target, &fact, Some(&note), span);
-                context.add_once(index, &fact, finding);
+                context.add_once(index, &format!("{} {fact}", Side::Target), finding);
             }
             Finding::Table(state) => {
                 let what = match state {
