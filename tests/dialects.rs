@@ -134,7 +134,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[368, 228, 68, 21], [604, 37, 80, 18], [269, 3, 113, 42], [241, 0, 87, 37]]);
+    assert_eq!(counts, [[368, 228, 69, 21], [604, 37, 81, 18], [269, 3, 113, 42], [241, 0, 87, 37]]);
 }
 
 fn control(name: &str) -> Control {
