@@ -253,6 +253,10 @@ super::vocabulary! {
         SideBoreStop = "hole.side.bore.stop",
         /// Bores along X with a wait at the bottom, feed out.
         SideBoreDwell = "hole.side.bore.dwell",
+        /// Lets threads run out at their end, as the settings of the control say.
+        ThreadRunOutOn = "thread.run.out.on",
+        /// Lets threads end straight.
+        ThreadRunOutOff = "thread.run.out.off",
         /// Makes the taps of the next cycle rigid: their feed follows the turns of the tool.
         RigidTaps = "tap.rigid",
         /// Runs the drilling cycle in force at places round the circle whose centre is where the tool stands.

@@ -27,7 +27,6 @@ static STYLE: Style = Style {
     numbers_lathe_alarms: true,
     // The end of G68, and the watch over the spindle's speed.
     lathe_signs: &["G69", "G25", "G26"],
-    run_out: None,
 };
 
 /// Runs a program. See [`super::Execute`].

@@ -26,7 +26,6 @@ static STYLE: Style = Style {
     },
     numbers_lathe_alarms: false,
     lathe_signs: &[],
-    run_out: Some(["M23", "M24"]),
 };
 
 /// Runs a program. See [`super::Execute`].

@@ -97,6 +97,7 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         }
         Op::CheckInch if !machine.inch => return Err(Stop::unnamed("the control is set to metric")),
         Op::CheckMetric if machine.inch => return Err(Stop::unnamed("the control is set to inch")),
+        Op::ThreadRunOutOn | Op::ThreadRunOutOff => machine.set_run_out(op == Op::ThreadRunOutOn),
         // Rigid or not, a tap goes the same way.
         Op::RigidTaps => {}
         // These move, or are modes, or were done in their places.

@@ -63,10 +63,10 @@ impl<'c> Runner<'c> {
         }
         self.refuse_flow(meaning)?;
         self.gather(words, meaning, call, &values)?;
+        self.place_beside_limit()?;
         if self.keep_contoured() {
             return Ok(Next::On);
         }
-        self.switch_run_out();
         self.refuse_modal_call()?;
         let mut command = std::mem::take(&mut self.command);
         let moves = command.has_axes() && !command.ops.iter().any(|op| keeps_axes(*op));
@@ -215,15 +215,18 @@ impl<'c> Runner<'c> {
         Ok(())
     }
 
-    /// Switches the run-out of threads, where a code of the block does.
-    fn switch_run_out(&mut self) {
-        let Some([on, off]) = self.style.run_out else { return };
-        let Some(code) = self.command.own_code.as_deref().filter(|_| self.session.machine.is_lathe()) else {
-            return;
-        };
-        if code == on || code == off {
-            self.session.machine.set_run_out(code == on);
+    /// A place beside a limit of the spindle speed is set, not gone to (S2).
+    fn place_beside_limit(&mut self) -> Result<(), Halt> {
+        let is_lathe = self.session.machine.is_lathe();
+        if !is_lathe || !self.command.has(Op::LimitSpeed) || !self.command.has_axes() {
+            return Ok(());
         }
+        if !self.session.control.dialect().codes.iter().any(|row| row.op == Op::SetPosition) {
+            self.command.clear();
+            return Err(self.lathe_stop(Stop::unnamed("a position beside a limit of the spindle speed")));
+        }
+        self.command.ops.push(Op::SetPosition);
+        Ok(())
     }
 
     /// Notes the code in force in a modal group, and the end of a drilling cycle.

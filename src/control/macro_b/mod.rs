@@ -74,8 +74,6 @@ pub struct Style {
     pub numbers_lathe_alarms: bool,
     /// Codes of its lathes that are refused on no lathe: what they end was refused where it began, or they move nothing.
     pub lathe_signs: &'static [&'static str],
-    /// The codes that switch the run-out of a lathe's threads on and off.
-    pub run_out: Option<[&'static str; 2]>,
 }
 
 impl Style {

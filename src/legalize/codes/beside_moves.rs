@@ -211,8 +211,21 @@ impl Block<'_> {
             self.take(kind, starts, late);
         }
         self.spread(context);
+        self.turret_first();
         self.stop_last();
         facts
+    }
+
+    /// The turret turns before anything else of its block (docs/lathe.md T5): also before what went before the move.
+    fn turret_first(&mut self) {
+        if self.early.is_empty() || !self.nc.has(Op::TurretIndex) {
+            return;
+        }
+        let turns =
+            |item: &NcItem| matches!(item, NcItem::Op(Op::TurretIndex) | NcItem::Word(Role::Turret, _));
+        let (turret, kept) = std::mem::take(&mut self.nc.items).into_iter().partition(turns);
+        self.nc.items = kept;
+        self.early.insert(0, turret);
     }
 
     /// A program stop waits for what goes after the move.

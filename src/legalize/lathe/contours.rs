@@ -4,7 +4,8 @@
 //! but moves and comments stands there, on one way; a jump that comes in from elsewhere runs the same blocks as they stand. Counter-example: a
 //! macro call between them, which the cycle does not look into.
 
-use super::straight::goes_on_to;
+use super::place::Place;
+use super::straight::{entered_straight, goes_on_to};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, Nc, Program, Stmt, StmtKind};
@@ -20,10 +21,25 @@ pub fn concerns(features: &Features) -> bool {
 /// Checks that each contour that a cycle names is there, as a contour.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter().enumerate() {
-        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+        let straight = entered_straight(program);
+        let mut place = Place::default();
+        let stmts = program.blocks.iter().zip(straight).flat_map(|(block, straight)| {
+            block.stmts.iter().enumerate().map(move |(at, stmt)| (stmt, straight || at > 0))
+        });
+        for (stmt, goes_on) in stmts {
+            if !goes_on {
+                place.forget();
+            }
+            place.enter(stmt);
+            let from = place;
+            place.step(stmt);
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
             if !nc.ops().any(Op::reads_contour) {
                 continue;
+            }
+            if let Some((span, what)) = returns(program, nc, from) {
+                let told = Diagnostic::new(Code::NoEquivalent, span, what.as_str()).with_help(RETURNS_HELP);
+                context.add_once(index, &format!("{what} {:?}", stmt.site.span), told);
             }
             if let Err(what) = check(program, nc, context.target.text().sequence_max) {
                 // The pass runs twice.
@@ -83,6 +99,42 @@ fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
     }
     Ok(())
 }
+
+/// Where the last block of a contour to be turned goes back along Z, as far as the words say it: the control stops there (docs/lathe.md R10).
+fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String)> {
+    if !nc.has(Op::RoughTurning) {
+        return None;
+    }
+    let number = |role: Role| nc.word(role).and_then(|value| value.constant()).map(|number| number as u32);
+    let (first, last) = (number(Role::ContourFirst)?, number(Role::ContourLast)?);
+    let (begin, end) = (find(program, first).ok()?, find(program, last).ok()?);
+    let stmts =
+        program.blocks.iter().enumerate().flat_map(|(block, found)| {
+            found.stmts.iter().enumerate().map(move |(at, stmt)| ((block, at), stmt))
+        });
+    let mut at = from.z()?;
+    let mut along = 0.0;
+    for (place, stmt) in stmts.filter(|(place, _)| (begin..=end).contains(place)) {
+        let Some(nc) = stmt.kind.nc() else { continue };
+        let steps = nc.has(Op::Incremental) || nc.word(Role::StepZ).is_some();
+        if steps || from.counts_steps() {
+            return None;
+        }
+        let Some(z) = nc.word(Role::Z) else { continue };
+        let way = z.constant()? - at;
+        at += way;
+        if place == end && way * along < 0.0 {
+            let what = format!(
+                "N{last}, the last block of this contour, goes back along Z, where the control stops: Z of a contour turns nowhere"
+            );
+            return Some((stmt.site.span, what));
+        }
+        along = if way == 0.0 { along } else { way };
+    }
+    None
+}
+
+const RETURNS_HELP: &str = "end the contour with the move along X, and write the move back in Z after it";
 
 /// True where what stood in one block of the source goes on after a statement.
 fn is_split(program: &Program, (at, place): (usize, usize)) -> bool {

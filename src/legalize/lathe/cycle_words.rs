@@ -317,7 +317,8 @@ impl Run<'_> {
             }
         };
         if passes.is_none() {
-            self.refuse(span, FINISHES, FINISHES_HELP);
+            let (what, help) = if runs_out { (RUNS_OUT, RUNS_OUT_HELP) } else { (FINISHES, FINISHES_HELP) };
+            self.refuse(span, what, help);
         }
         if let StmtKind::Nc(nc) = &mut stmt.kind {
             drop_rough(nc, self.source, self.target);
@@ -378,6 +379,9 @@ fn names_other_unit(program: &Program, control: &Control) -> bool {
     stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(other)))
 }
 
+const RUNS_OUT: &str = "the target finishes a thread in one pass, and this one has more and runs out: the others are not written out, as no \
+                        source says by which way they run out";
+const RUNS_OUT_HELP: &str = "give the thread one finishing pass and an allowance for it, or no run-out";
 const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \
                         where the cycle begins, or a number of it, is not known here";
 const FINISHES_HELP: &str = "write X and Z of the start as numbers right before the thread, and a G code in the next block that moves; or give the \

@@ -2,7 +2,7 @@
 //!
 //! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
-//! axes the machine has is taken from the moves of the library: X, Y (on a lathe only where it is moved), Z and the rotary ones it moves; of those the target
+//! axes the machine has is taken from the moves of the library: X, Y (on a lathe only where it is moved), Z and, on a mill, the rotary ones it moves; of those the target
 //! has no letter for, the ones that the program itself moves.
 
 use crate::canon::{Group, Op, Role};
@@ -37,8 +37,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return doubt(module, there, context);
     }
     let rotary = [Role::A, Role::B, Role::C];
-    let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
+    // A lathe sends X and Z home, and C by its own word (docs/lathe.md Z2).
     let turns = context.source.machine() == Machine::Lathe;
+    let moved = rotary.into_iter().filter(|role| !turns && ncs().any(|nc| nc.word(*role).is_some()));
     let has_y = !turns || ncs().any(|nc| nc.word(Role::Y).is_some() || nc.word(Role::StepY).is_some());
     let linear = [Role::X, Role::Y, Role::Z].into_iter().filter(|role| *role != Role::Y || has_y);
     let axes: Vec<Role> = linear.chain(moved).collect();
@@ -85,7 +86,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 ),
             };
             context.add(index, Diagnostic::new(code, span, what).asked_once());
-            if [Role::A, Role::B, Role::C].into_iter().any(|role| target.letter(role, None).is_none()) {
+            if !turns && rotary.into_iter().any(|role| target.letter(role, None).is_none()) {
                 context.add_once(
                     index,
                     ROTARY,

@@ -6,7 +6,7 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes, interpolations,
-    lone_steps, rapid_in_force, roughing, steps, tap_feeds, threads, written_corners, x_counts,
+    lone_steps, rapid_in_force, roughing, run_outs, steps, tap_feeds, threads, written_corners, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -82,13 +82,15 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(lone_steps::concerns)
     .needs(&["steps", "holes"]),
+    Pass::rewrites("run-outs", "threads are told that they do not run out by a word", run_outs::run)
+        .when(|c, context| run_outs::concerns(c, context.target)),
     Pass::edits_some(
         "lathe-cycles",
         "cycles of a lathe take their values where the target does; threads without one are moves",
         cycle_words::run,
     )
     .when(cycle_words::concerns)
-    .needs(&["steps", "lathe-lengths"]),
+    .needs(&["steps", "lathe-lengths", "run-outs"]),
     Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
         .when(steps::letters_to_mode)
         .needs(&["beside-moves", "holes", "lathe-cycles"]),

@@ -84,7 +84,12 @@ fn plane(hole: &mut Hole<'_>) -> Result<(), Refused> {
             hole.cycle.plane = hole.cycle.initial;
             return Ok(());
         }
-        return if hole.fresh { Err((NO_PLANE, "write R into the block of the cycle")) } else { Ok(()) };
+        if hole.fresh {
+            // Q9, Q5: the plane is where the cycle began.
+            hole.cycle.plane = hole.cycle.initial;
+            hole.add_before_feed(Role::CycleRStep, Expr::Number(0.0));
+        }
+        return Ok(());
     };
     let (Some(initial), Some(place)) = (hole.cycle.initial, place.constant()) else {
         return Err((LEVEL, LEVEL_HELP));
@@ -150,7 +155,6 @@ const STOPS: &str = "a bore whose spindle stops at the bottom: the target has no
 const STOPS_HELP: &str = "write the bore as moves: feed in, M5, rapid out, M3";
 const DEPTH: &str = "no source says what an increment of the depth counts from on the source";
 const BELOW: &str = "this drilling cycle begins between its retract plane and the bottom: it ends at the plane, and on the target where it began";
-const NO_PLANE: &str = "a drilling cycle without R: no source says which retract plane it has";
 const LEVEL: &str = "the target takes the retract plane as a way from where the cycle begins, which is not known here, or the plane is computed";
 const LEVEL_HELP: &str =
     "write the place of the tool as numbers (G0 X.. Z..) in a block before the cycle, and R as a number";

@@ -105,6 +105,13 @@ impl Hole<'_> {
         }
     }
 
+    /// Puts a word before the feed, or at the end.
+    pub fn add_before_feed(&mut self, role: Role, value: Expr) {
+        let feed = |item: &NcItem| matches!(item, NcItem::Word(Role::Feed, _));
+        let at = self.nc.items.iter().position(feed).unwrap_or(self.nc.items.len());
+        self.nc.items.insert(at, NcItem::Word(role, value));
+    }
+
     pub fn drop(&mut self, role: Role) {
         self.nc.items.retain(|item| !matches!(item, NcItem::Word(found, _) if *found == role));
     }

@@ -1,6 +1,6 @@
 //! One program while it is lowered.
 
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, SourceInfo, Var};
 use crate::lower::common::{Findings, Nowhere};
@@ -74,6 +74,22 @@ pub struct Motion {
     pub code: Option<CodeId>,
     /// True where a jump may have come in since the code, with another one in force.
     pub joined: bool,
+    /// How the feed counts, where a code before says it on every way.
+    pub feed: Option<Op>,
+}
+
+impl Motion {
+    /// Something may have come in, or run, with another code in force.
+    pub fn join(&mut self) {
+        self.joined = true;
+        self.feed = None;
+    }
+
+    /// Another way comes in with what is in force there.
+    pub fn meet(&mut self, other: Self) {
+        self.joined |= other.joined || self.code != other.code;
+        self.feed = self.feed.filter(|feed| other.feed == Some(*feed));
+    }
 }
 
 impl<'a> Lowering<'a> {

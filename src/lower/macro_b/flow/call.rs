@@ -302,7 +302,7 @@ impl<'a> Lowering<'a> {
 
     fn call(&mut self, call: Call, modal: bool, site: &SourceInfo) {
         // What is called may leave another motion mode behind.
-        self.motion.joined = true;
+        self.motion.join();
         if modal {
             if self.findings.is(Question::CallModalBlockCalls, site.span) {
                 self.findings.not_understood(

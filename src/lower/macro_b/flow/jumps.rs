@@ -100,7 +100,7 @@ impl<'a> Lowering<'a> {
         let motion = self.motion;
         self.items(body, site);
         // After it the mode is either: the words that need it must say which.
-        self.motion.joined |= self.motion.code != motion.code;
+        self.motion.meet(motion);
         self.builder.start(otherwise);
     }
 

@@ -31,7 +31,7 @@ impl<'a> Lowering<'a> {
                 self.builder.start(head);
             }
         }
-        self.motion.joined = true;
+        self.motion.join();
         self.loops.push(Loop { number, start: self.at, head, exit, site: site.clone() });
     }
 

@@ -80,7 +80,7 @@ impl<'a> Lowering<'a> {
         if let Some((number, id)) = self.labels.of_block(self.at) {
             self.builder.start(id);
             self.builder.label(Label::Number(number));
-            self.motion.joined = true;
+            self.motion.join();
         }
         let mut site = site(block, self.source);
         if is_head {
@@ -177,7 +177,7 @@ impl<'a> Lowering<'a> {
                 }
             }
             if let Some(other) = left.replace(self.motion) {
-                self.motion.joined |= other.joined || self.motion.code != other.code;
+                self.motion.meet(other);
             }
         }
         self.builder.start(next);

@@ -58,6 +58,9 @@ impl<'a> Lowering<'a> {
         self.check_machine(words, &codes);
         if let Some((_, row)) = codes.iter().rev().find(|(_, row)| row.op.group() == Group::FeedMode) {
             self.inverse = row.op == Op::FeedInverse;
+            // A block that may be skipped leaves either in force.
+            let same = site.skip.is_none() || self.motion.feed == Some(row.op);
+            self.motion.feed = Some(row.op).filter(|_| same);
         }
         let mut nc = Nc { items: Vec::with_capacity(words.len() + 1) };
         let mut seen = Seen::default();
@@ -81,6 +84,12 @@ impl<'a> Lowering<'a> {
         self.check_turning(&nc, site.span);
         if nc.ops().filter(|op| *op == Op::Act).count() > 1 {
             return self.builders_codes(nc, site);
+        }
+        if self.drops_change(&mut nc) {
+            if !site.comments.is_empty() || site.sequence.get().is_some() {
+                self.builder.push(StmtKind::Comment, site.clone());
+            }
+            return;
         }
         let place = self.apart_of_limit(&mut nc, site);
         self.push_nc(nc, site);
@@ -189,7 +198,7 @@ impl<'a> Lowering<'a> {
             self.findings.add(Diagnostic::new(Code::GroupTwice, span, message));
         }
         if matches!(group, Group::Motion | Group::Cycle) {
-            self.motion = Motion { code: Some(id), joined: false };
+            self.motion = Motion { code: Some(id), joined: false, ..self.motion };
         }
         // Many codes share these operations: which one it is, only its number says.
         if matches!(

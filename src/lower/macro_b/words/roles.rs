@@ -94,6 +94,14 @@ impl<'a> Lowering<'a> {
         if codes.iter().any(|(_, row)| special(row.op)) {
             return true;
         }
+        if codes.iter().any(|(_, row)| row.op == SpindleOrient) {
+            let what = format!(
+                "{} beside M19 is the angle at which the spindle stops, which is not converted",
+                word.letter
+            );
+            self.findings.not_understood(span, what);
+            return false;
+        }
         match in_force {
             Some(row) if matches!(row.op, ArcCw | ArcCcw | ArcTangent) || special(row.op) => true,
             Some(row) if own || !self.motion.joined => {

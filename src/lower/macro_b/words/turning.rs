@@ -125,6 +125,15 @@ impl Lowering<'_> {
         }
     }
 
+    /// M6 of a lathe is not needed, and does nothing of its own (docs/lathe.md T8): it goes. True where nothing else is in its block.
+    pub fn drops_change(&self, nc: &mut Nc) -> bool {
+        if self.control.machine() != Machine::Lathe || !nc.has(Op::ToolChange) {
+            return false;
+        }
+        nc.items.retain(|item| *item != NcItem::Op(Op::ToolChange));
+        nc.items.is_empty()
+    }
+
     /// `G50 X Z S` limits the speed, and sets the place: two blocks here.
     pub fn apart_of_limit(&mut self, nc: &mut Nc, site: &SourceInfo) -> Option<Nc> {
         let axis = |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_axis());

@@ -1,6 +1,6 @@
 //! Values of words: decimal points, whole numbers, seconds and milliseconds, vacancy.
 
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, CodeMeaning, Machine, Question, Side};
 use crate::ir::{BinOp, Expr, is_finer_than_words};
@@ -85,9 +85,10 @@ impl<'a> Lowering<'a> {
         let counts = self.control.bare_feed();
         let open = self.control.feed_is_open();
         // It may count otherwise in feed a turn than in feed a minute: too much to take as written.
-        if self.control.machine() == Machine::Lathe && (open || counts == BareLength::Unknown) {
-            let message = "no source says what a feed of this lathe counts without a decimal point: write the point, or say \
-                           'bare_feed' under [settings] of the machine's profile";
+        let by_minute = self.motion.feed == Some(Op::FeedPerMinute);
+        if self.control.machine() == Machine::Lathe && !by_minute && (open || counts == BareLength::Unknown) {
+            let message = "no source says what a feed of this lathe counts without a decimal point, unless a code before says that \
+                           it is a feed a minute: write the point, or say 'bare_feed' under [settings] of the machine's profile";
             self.findings.not_understood(span, message);
             return Expr::Number(number);
         }
