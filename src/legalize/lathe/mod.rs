@@ -17,6 +17,7 @@ pub mod other_kind;
 pub mod place;
 pub mod rapid_in_force;
 pub mod roughing;
+mod setting_values;
 pub mod settings;
 pub mod steps;
 pub mod straight;
