@@ -268,6 +268,10 @@ impl<'c> Runner<'c> {
                 return self.call_program(f64::from(alias.program), None, true);
             }
             let Some(row) = self.row(code.row).filter(|row| row.op.is_flow()) else { continue };
+            // P of a call is a wait too, where P lasts across codes (docs/lathe.md S10): a whole number of milliseconds.
+            if let Some(called) = value(Role::Program).or(value(Role::Sequence)) {
+                self.session.machine.last_wait(called);
+            }
             return match row.op {
                 Op::End | Op::EndRewind => Err(Halt::Ended(row.op)),
                 Op::Return => {

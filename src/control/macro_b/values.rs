@@ -107,6 +107,10 @@ impl<'c> Runner<'c> {
             let answer = match word.form {
                 // Seconds are written with a point; without one they count thousandths.
                 Form::Point if role == Role::DwellS => return Ok(value),
+                // A calculator's number is as if it had one.
+                _ if role == Role::DwellS && self.bare_of(word.letter) == BareLength::Units => {
+                    return Ok(value);
+                }
                 Form::Point => self.rules.dwell_point.ask(&mut self.session.trace),
                 _ => self.rules.dwell_bare.ask(&mut self.session.trace),
             };

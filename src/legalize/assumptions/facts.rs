@@ -364,7 +364,6 @@ impl<'c> Found<'c> {
                     _ => {}
                 }
             }
-            // Passes put reads of places in, which no one has looked at yet.
             Expr::System(state, subscripts) if self.side == Side::Target => {
                 self.state(*state, subscripts, span)
             }

@@ -7,8 +7,7 @@
 use crate::canon::{Func, Group, Op, Pause, Role, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Side, matters};
-use crate::ir::analysis::Cfg;
-use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
+use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
@@ -35,11 +34,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         && !context.target.is(Question::CycleStartsSpindle);
     let standing = Standing::of(context.source);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
+    let stood = (cycles && (starts || taps)).then(|| OverCalls::of(module, &standing));
     for (index, program) in module.programs.iter().enumerate() {
-        let stood = (cycles && (starts || taps)).then(|| solve(&standing, program, &Cfg::of(program)));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
-            let mut stands = stood.as_ref().and_then(|stood| stood.at(id)).is_some_and(|stands| *stands);
+            let mut stands =
+                stood.as_ref().and_then(|stood| stood.at(index, id)).is_some_and(|stands| *stands);
             for stmt in &block.stmts {
                 let span = stmt.site.span;
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
@@ -147,17 +147,19 @@ struct Standing {
     by_message: bool,
 }
 
-impl Analysis for Standing {
-    type State = bool;
-    const DIRECTION: Direction = Direction::Forward;
+impl Follow for Standing {
+    type Known = bool;
 
-    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, bool)> {
-        cfg.roots().iter().map(|root| (*root, false)).collect()
+    fn outside(&self, _: usize) -> bool {
+        false
     }
 
-    fn block(&self, _: BlockId, block: &Block, stands: &mut bool) {
+    fn stmts(&self, _: (usize, BlockId), block: &Block, stands: &mut bool) {
         block.stmts.iter().for_each(|stmt| *stands = self.after(&stmt.kind, *stands));
     }
+
+    // Of a program that is not in the library nothing is known: it is taken to leave the spindle as it was.
+    fn lose(&self, _: &mut bool) {}
 }
 
 impl Standing {

@@ -120,6 +120,9 @@ fn plain(nc: &Nc, next: Option<&Nc>, (place, letters): (Place, bool)) -> Result<
         [[Role::X, Role::StepX], [Role::Z, Role::StepZ]]
             .map(|roles| roles.into_iter().find(|role| nc.word(*role).is_some()))
     };
+    if nc.word(Role::LineAngle).is_some() {
+        return Err("a corner with a sign, or one that names an axis, stands after a line by its angle: the source stops at an alarm".into());
+    }
     let along_x = match axes(nc) {
         [Some(_), None] => true,
         [None, Some(_)] => false,
@@ -137,7 +140,8 @@ fn plain(nc: &Nc, next: Option<&Nc>, (place, letters): (Place, bool)) -> Result<
         |role: &Role| role.is_axis() && !matches!(role, Role::X | Role::StepX | Role::Z | Role::StepZ);
     let straight = |nc: &Nc| {
         let own = nc.ops().filter(|op| op.group() == Group::Motion).all(|op| op == Op::Linear);
-        own && !nc.ops().any(|op| op.takes_axes())
+        own && nc.word(Role::LineAngle).is_none()
+            && !nc.ops().any(|op| op.takes_axes())
             && !nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if other(role)))
     };
     let next = next.filter(|next| straight(next)).map(|next| (next, axes(next)));

@@ -5,23 +5,21 @@
 //! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
 //! otherwise.
 
-use super::cycle_values::{Given, Need, Values, replace, resolve, setting_named, told, values_of};
+use super::cycle_values::{Given, Need, Values, replace, resolve, told, values_of};
 use super::place::Place;
-use super::roughing::drop_rough;
+use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
+use super::setting_values::{Found, tell};
 use super::settings::{Kind, setting, takes};
 use super::straight::entered_straight;
 use super::thread_passes::{all, finishes, says_how};
 use super::threads::{beyond, flanks_are_open};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
-use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Units};
 use crate::ir::{Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
-use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// True if there are such cycles, and the target does not take the values from where the source does, or from a setting that is another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -53,15 +51,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let has = |program: &Program| program.blocks.iter().any(|block| block.stmts.iter().any(runs));
     let with: Vec<usize> = (0..module.programs.len()).filter(|at| has(&module.programs[*at])).collect();
     let facts = context.modal_facts(module);
+    let mut all = Vec::new();
     for index in &with {
         let program = &mut module.programs[*index];
         let states = program.ids().map(|id| facts.at(*index, id)).collect();
-        each(program, states, *index, context);
+        let found = each(program, states, *index, context);
+        all.push((*index, found));
     }
+    tell(all, module, context);
     with
 }
 
-fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut Context<'_>) {
+fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut Context<'_>) -> Found {
     let straight = entered_straight(program);
     let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
     let mut run = Run {
@@ -85,37 +86,11 @@ fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut C
         let ends = matches!(block.term.kind, TermKind::End { .. });
         block.stmts = run.block(old.into_iter().collect(), state, ends).into();
     }
-    let Run { mut found, flanks, .. } = run;
+    let Run { found, flanks, .. } = run;
     if let Some(span) = flanks {
         flanks_are_open(index, span, context);
     }
-    refuse_two_values(&mut found);
-    for (span, what, help, needs) in found {
-        let code = if needs.is_some() { Code::Conditional } else { Code::NoEquivalent };
-        let finding = Diagnostic::new(code, span, what.as_str());
-        let finding = if help.is_empty() { finding } else { finding.with_help(help) };
-        match needs {
-            Some(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
-            None => context.add(index, finding),
-        }
-    }
-}
-
-/// A setting cannot change while a program runs: what needs another value than a cycle before is refused.
-fn refuse_two_values(found: &mut Found) {
-    let mut values: BTreeMap<Arc<str>, f64> = BTreeMap::new();
-    for (_, what, help, needs) in found {
-        let Some(Predicate::Setting(name, value)) = needs else { continue };
-        let first = *values.entry(name.clone()).or_insert(*value);
-        if first.to_bits() != value.to_bits() {
-            let (kind, number) = setting_named(name);
-            *what = format!(
-                "{kind} {number} must be {value} here, and {first} for a cycle before: a program cannot change it"
-            );
-            *help = "give both cycles the same value, or make two programs of them".into();
-            *needs = None;
-        }
-    }
+    found
 }
 
 fn cycle_of(stmt: &Stmt) -> Option<&'static Kind> {
@@ -125,9 +100,6 @@ fn cycle_of(stmt: &Stmt) -> Option<&'static Kind> {
 fn setup_of(stmt: &Stmt) -> Option<&'static Kind> {
     stmt.kind.nc()?.ops().find_map(Kind::of_setup)
 }
-
-/// What is found: where, what, what to do, and what the conversion supposes; of a refusal nothing.
-type Found = Vec<(Span, String, String, Option<Predicate>)>;
 
 /// What a block before has set for the cycles of a kind.
 struct Set {
@@ -321,9 +293,12 @@ impl Run<'_> {
             self.refuse(span, what, help);
         }
         if let StmtKind::Nc(nc) = &mut stmt.kind {
-            drop_rough(nc, self.source, self.target);
+            let same = drop_rough(nc, self.source, self.target);
             nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if kind.roles.contains(role)));
             nc.items.extend(words.into_iter().map(|(role, value)| NcItem::Word(role, value)));
+            if !same {
+                self.refuse(span, ALLOWANCES, ALLOWANCES_HELP);
+            }
         }
         let site = crate::ir::SourceInfo { span, ..Default::default() };
         let setup = (!setup.is_empty()).then(|| Stmt { kind: StmtKind::Nc(with(kind, setup)), site });

@@ -18,6 +18,7 @@ pub mod place;
 pub mod rapid_in_force;
 pub mod roughing;
 pub mod run_outs;
+mod setting_values;
 pub mod settings;
 pub mod steps;
 pub mod straight;

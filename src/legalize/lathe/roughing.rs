@@ -76,15 +76,27 @@ const ALONG: &str = "the target ends this roughing with a pass along the contour
 const LEVELS: &str = "the target is not known to end this roughing with a pass along the contour, as the source does: steps may be left for \
                       the finishing tool, up to the depth of a pass";
 
-/// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
-/// that the passes differ.
-pub(super) fn drop_rough(nc: &mut Nc, source: &Control, target: &Control) {
+/// A control that always ends roughing with a pass along the contour has no words for what that pass takes: words of 0 go,
+/// as without them. False where one is not known to be 0: the levels lie nearer by it, and the last pass takes it.
+pub(super) fn drop_rough(nc: &mut Nc, source: &Control, target: &Control) -> bool {
     let is_along =
         |control: &Control| control.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
     let along = is_along(target) && !is_along(source);
-    let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return };
+    let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return true };
     let rough = |role: Role| matches!(role, Role::RoughX | Role::RoughZ) && !takes(target, op, role);
+    let mut nothing = true;
     if along {
-        nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if rough(*role)));
+        nc.items.retain(|item| match item {
+            NcItem::Word(role, value) if rough(*role) => {
+                nothing &= value.constant() == Some(0.0);
+                false
+            }
+            _ => true,
+        });
     }
+    nothing
 }
+
+pub(super) const ALLOWANCES: &str = "this roughing leaves I and K for a last pass along the contour: its levels lie farther out by them, and the target has no such words";
+pub(super) const ALLOWANCES_HELP: &str =
+    "take I and K out; the pass along the contour then takes what is left, up to the depth of a pass";

@@ -29,7 +29,7 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
         let height = machine.frame.program(&machine.position)[along];
         machine.cycle.get_or_insert_with(|| Cycle::new(op, height)).op = op;
     }
-    read(machine, command, (along, begins.is_some()));
+    read(machine, command, along);
     machine.round_cycle(command, along, begins.is_some());
     machine.round_in(&across(command, along), trace);
     trace.doubt("machine:lathe.hole.moves");
@@ -84,7 +84,7 @@ fn check(machine: &Machine, command: &Command, op: Op) -> Result<(), Stop> {
 }
 
 /// Takes the block's words; those it does not have stay, but for a peck of a code that drills without it too (Q7).
-fn read(machine: &mut Machine, command: &Command, (along, begins): (usize, bool)) {
+fn read(machine: &mut Machine, command: &Command, along: usize) {
     let (unit, incremental) = (machine.unit(), machine.incremental);
     // A radius is half of the coordinate.
     let radius = unit / machine.real(along);
@@ -103,8 +103,7 @@ fn read(machine: &mut Machine, command: &Command, (along, begins): (usize, bool)
     let lasts = matches!(cycle.op, Op::FacePeck | Op::SidePeck);
     cycle.peck = peck.or(cycle.peck.filter(|_| lasts));
     // On a control whose P lasts across codes a cycle without one takes the last (S10).
-    let last =
-        machine.lathe.last_dwell.filter(|_| begins && cycle.op.is_waiting_hole()).unwrap_or(cycle.dwell);
+    let last = machine.lathe.last_dwell.filter(|_| cycle.op.is_waiting_hole()).unwrap_or(cycle.dwell);
     cycle.dwell = command.word(Role::CycleDwell).map_or(last, |ms| ms / 1000.0);
     machine.lathe.last_dwell =
         command.word(Role::CycleDwell).map(|ms| ms / 1000.0).or(machine.lathe.last_dwell);
@@ -121,7 +120,8 @@ fn hole(machine: &mut Machine, along: usize, trace: &mut Trace) -> Result<(), St
     if machine.lathe.hole_by_mode.is_some_and(|by_mode| by_mode != machine.incremental) {
         machine.rules.planes_frozen.ask(trace);
     }
-    if cycle.op.is_live_tap() {
+    let (main, live) = (machine.spindle, cycle.op.is_live_tap());
+    if live {
         // The tool stands until the cycle turns it.
         machine.spindle = Spindle::Stopped;
     }
@@ -133,6 +133,10 @@ fn hole(machine: &mut Machine, along: usize, trace: &mut Trace) -> Result<(), St
         planes.initial = planes.r;
     }
     expand::hole(machine, &cycle, (planes, along), trace);
+    if live {
+        // The spindle that turns the part is where it was.
+        machine.spindle = main;
+    }
     Ok(())
 }
 
@@ -159,4 +163,11 @@ fn way(machine: &Machine, cycle: &Cycle, trace: &mut Trace) -> Result<Op, Stop> 
         }
         _ => Op::CycleDrill,
     })
+}
+
+impl Machine {
+    /// Takes the P of a call, which is the last P of any code: a wait where P lasts across codes (S10).
+    pub(in crate::control) fn last_wait(&mut self, milliseconds: f64) {
+        self.lathe.last_dwell = Some(milliseconds / 1000.0);
+    }
 }

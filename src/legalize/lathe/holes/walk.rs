@@ -5,7 +5,7 @@ use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts};
+use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::lathe::place::Place;
 use crate::legalize::lathe::straight::entered_straight;
@@ -171,6 +171,11 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 }
             }
             block.stmts = out;
+            let calls = matches!(block.term.kind, TermKind::Call { .. });
+            if calls && walk.takes_wait(state.op(Group::Cycle), &all) {
+                let refused = Diagnostic::new(Code::NoEquivalent, block.term.site.span, CALLS);
+                found.push((index, refused.with_help(CALLS_HELP)));
+            }
         }
     }
     for (index, diagnostic) in found {
@@ -238,6 +243,17 @@ struct Walk {
 type Made = Result<(Vec<Stmt>, Vec<Asked>), Refused>;
 
 impl Walk {
+    /// True where a hole of the cycle in force takes the last P of any code for its wait, on one of the two controls.
+    fn takes_wait(&self, cycle: Option<Op>, all: &All) -> bool {
+        // Which code the target has in force after a loop or a jump, is not known here.
+        let may = matches!(cycle, Some(Op::FaceHole | Op::SideHole | Op::FaceBore | Op::SideBore))
+            && self.cycle.written.is_none()
+            && !(all.pecks.is_empty() && all.dwells.is_empty());
+        let waits = |op: Option<Op>| op.is_some_and(Op::is_waiting_hole);
+        let counts = self.cycle.dwell.as_ref().is_some_and(|wait| wait.constant() != Some(0.0));
+        cycle.is_some_and(Op::is_hole) && (may || counts || waits(cycle) || waits(self.cycle.written))
+    }
+
     /// Takes a statement; none where it stays as it is.
     fn stmt(
         &mut self,
@@ -253,17 +269,17 @@ impl Walk {
         let nc = match &stmt.kind {
             StmtKind::Nc(nc) => nc,
             StmtKind::Comment | StmtKind::Assign { .. } => return None,
-            _ => {
+            kind => {
+                let calls = matches!(kind, StmtKind::ModalCall(_)) && self.takes_wait(before, all);
                 self.cycle = Cycle::default();
                 self.speed = None;
-                return None;
+                return calls.then_some(Err((CALLS, CALLS_HELP)));
             }
         };
         if let Some(speed) = nc.word(Role::Speed) {
             self.speed = speed.constant().filter(|_| stmt.site.skip.is_none());
         }
-        let counts = self.cycle.dwell.is_some() || before.is_some_and(Op::is_waiting_hole);
-        if nc.has(Op::Dwell) && counts && before.is_some_and(Op::is_hole) {
+        if nc.has(Op::Dwell) && self.takes_wait(before, all) {
             return Some(Err((WAITS, "end the cycle before the wait, and write it again after it")));
         }
         let op = drills(nc, state)?;
@@ -324,4 +340,6 @@ fn says_again(item: &NcItem) -> bool {
 const SKIPPED: &str = "a block skip before a drilling block: what lasts from it is not known after it";
 const WAITS: &str =
     "a G4 in a drilling cycle that waits: on one of the two controls its P is the wait of the next hole too";
+const CALLS: &str = "a call in a drilling cycle that waits: on one of the two controls the P of the call is the wait of the next hole too";
+const CALLS_HELP: &str = "end the cycle before the call (G80), and write it again, with its P, after it";
 const UNKNOWN: &str = "whether a drilling cycle is in force before this one is not known";

@@ -1,0 +1,73 @@
+//! What cycles need of the target's settings, over a whole library.
+//!
+//! Law: a setting is one value while a run lasts. Side condition: where no program calls another, a person may set it anew between two
+//! programs. Counter-example: a groove that goes back by 0.5 and one that goes back by 1, in a program and one that it calls.
+
+use super::cycle_values::setting_named;
+use crate::assume::Predicate;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::Module;
+use crate::legalize::Context;
+use crate::legalize::features::Feature;
+use crate::text::Span;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What is found: where, what, what to do, and what the conversion supposes; of a refusal nothing.
+pub(super) type Found = Vec<(Span, String, String, Option<Predicate>)>;
+
+/// Tells what was found in the programs of a library, each with its index.
+pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Context<'_>) {
+    let calls =
+        [Feature::Call, Feature::Modal, Feature::Chain].into_iter().any(|way| context.features.has(way));
+    let mut values: BTreeMap<Arc<str>, Vec<(f64, usize)>> = BTreeMap::new();
+    for (index, found) in found {
+        for (span, mut what, mut help, mut needs) in found {
+            if let Some(Predicate::Setting(name, value)) = &needs {
+                let known = values.entry(name.clone()).or_default();
+                let other = |(first, _): &&(f64, usize)| first.to_bits() != value.to_bits();
+                // A value that this program itself needs otherwise counts before one of another.
+                let own = known.iter().filter(other).find(|(_, program)| *program == index);
+                let clash = own.or_else(|| known.iter().find(other)).copied();
+                if !known.contains(&(*value, index)) {
+                    known.push((*value, index));
+                }
+                if let Some((first, program)) = clash {
+                    let is_own = program == index;
+                    (what, help) = two_values((name, *value), (first, (!is_own).then_some(program)), module);
+                    if is_own || calls {
+                        needs = None;
+                    }
+                }
+            }
+            let code = if needs.is_some() { Code::Conditional } else { Code::NoEquivalent };
+            let finding = Diagnostic::new(code, span, what.as_str());
+            let finding = if help.is_empty() { finding } else { finding.with_help(help) };
+            match needs {
+                Some(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
+                None => context.add(index, finding),
+            }
+        }
+    }
+}
+
+/// What is said of a second value: the first one, and the program that needs it, where that is another one.
+fn two_values(
+    (name, value): (&str, f64),
+    (first, other): (f64, Option<usize>),
+    module: &Module,
+) -> (String, String) {
+    let (kind, number) = setting_named(name);
+    let Some(other) = other else {
+        let what = format!(
+            "{kind} {number} must be {value} here, and {first} for a cycle before: a program cannot change it"
+        );
+        return (what, "give both cycles the same value, or make two programs of them".into());
+    };
+    let program = module.programs.get(other).and_then(|program| program.name.as_ref());
+    let program = program.map_or_else(|| "another program".to_owned(), ToString::to_string);
+    let what = format!(
+        "{kind} {number} must be {value} while this program runs, and {first} while {program} runs: it has one value at a time"
+    );
+    (what, "give the cycles of both the same value, or set it anew before each of the two is run".into())
+}
