@@ -89,7 +89,7 @@ fn what_is_left_out_is_told_once() {
         1,
         "{said}"
     );
-    assert!(said.contains("2 for review"), "{said}");
+    assert!(said.contains("2 converted, 0 for review"), "{said}");
     assert_eq!(run.code, 0, "{said}");
     assert!(!shop.read("there/a.nc").contains("M14"));
 }

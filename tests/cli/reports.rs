@@ -47,7 +47,7 @@ fn findings_stand_at_their_blocks_and_say_what_settles_them() {
     let json: Value = serde_json::from_str(&run.out).unwrap();
     let all = json["programs"][0]["diagnostics"].as_array().unwrap();
     let of = |text: &str| all.iter().find(|d| d["message"].as_str().unwrap().contains(text)).unwrap();
-    assert_eq!(of("'behaviour:vacant.arithmetic.zero' for the target")["line"], 3);
+    assert_eq!(of("'behaviour:vacant.arithmetic.zero' is common knowledge for the target")["line"], 3);
     let table = of("a setting of the target says whether its cutter table");
     assert_eq!(table["line"], 4);
     assert!(table["help"].as_str().unwrap().contains("'40' under [settings]"), "{table}");

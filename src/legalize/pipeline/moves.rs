@@ -82,7 +82,7 @@ pub(super) const MOVES: &[Pass] = &[
     .needs(&["length-radius"]),
     Pass::edits(
         "rigid-taps",
-        "the code for rigid taps goes where all taps are rigid, and stands where they are so by it alone",
+        "the code for rigid taps stands only where taps are rigid by it",
         rigid_taps::run,
     )
     .when(|c, context| is_mill(context) && rigid_taps::concerns(c, context)),
