@@ -1,24 +1,21 @@
 //! Called programs whose text ends without a return.
 //!
 //! Law: a called program gives back to its caller by a code that says so. Side condition: one stands on every way to the end
-//! of its text. No maker's text says what a control does without: makers' lists of alarms have one for it, and a control that goes on in
-//! the caller would cut what another one leaves. Counter-example: `O2000`, called by `M98`, whose last block is a move.
+//! of its text. No maker's text that was reached says what a control does without: it may stop with an alarm, or go on in the caller,
+//! where it would cut what another control leaves. Counter-example: `O2000`, called by `M98`, whose last block is a move.
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{Cfg, last_place, text_ends};
 use crate::ir::{Callee, Module, TermKind};
-use crate::legalize::Context;
+use crate::legalize::{Context, calls_of};
 use std::collections::BTreeSet;
 
 /// Refuses called programs that run out of text.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let calls = module.programs.iter().flat_map(|program| &program.blocks);
+    let calls = module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
     let called: BTreeSet<_> = calls
-        .filter_map(|block| match &block.term.kind {
-            TermKind::Call { call, .. } => match &call.callee {
-                Callee::Program(name) => Some(name),
-                _ => None,
-            },
+        .filter_map(|call| match &call.callee {
+            Callee::Program(name) => Some(name),
             _ => None,
         })
         .collect();

@@ -200,7 +200,7 @@ const STRUCTURE: &[Pass] = &[
         "refuses programs that are called and whose text ends without a return",
         text_returns::run,
     )
-    .when(|c, _| c.has(Feature::Call)),
+    .when(|c, _| c.has(Feature::Call) || c.has(Feature::Modal)),
     Pass::rewrites("outline", "subroutines inside a program go where the target wants them", outline::run)
         .when(|c, _| c.has(Feature::LocalCall))
         .needs(&["link"])

@@ -230,6 +230,8 @@ impl<'a> Lowering<'a> {
                 .not_understood(span, format!("this is not the number of a {} code", word.letter));
         }
         seen.m_codes += u32::from(word.letter == 'M');
+        // It may be one of how the feed counts.
+        self.motion.feed = None;
         let message = format!("the number of this {} code is computed", word.letter);
         self.findings.add(Diagnostic::new(Code::ComputedCode, span, message));
         let value = self.expr(value, At::Word(Role::Tool));
