@@ -130,7 +130,7 @@ impl<'p> Emitter<'p> {
                 is_tool || control.word_for(op).is_some_and(|row| nc.word(row.role).is_some())
             };
             if op.is_flow() || (code.is_none() && !by_word()) {
-                self.out.other_words(op);
+                self.out.unmapped(format_args!("the operation '{op}' with these words"));
             }
             codes.push(code.filter(|_| !by_word()));
         }

@@ -3,7 +3,6 @@
 use super::digits::{write_digits, write_integer};
 use super::labels::Labels;
 use super::lines::Line;
-use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::emit::Emitted;
@@ -82,15 +81,6 @@ impl Sheet<'_> {
     pub fn unmapped(&mut self, what: impl std::fmt::Display) {
         let message = format!("{} has no way to write {what}", self.control.dialect().title);
         self.refuse(Code::Unmapped, message);
-    }
-
-    /// Notes an operation that the control has with other words alone.
-    pub fn other_words(&mut self, op: Op) {
-        let hint = match op {
-            Op::SelectWork => " (`work_offsets` of its machine profile says how many it has)",
-            _ => "",
-        };
-        self.unmapped(format_args!("the operation '{op}' with these words{hint}"));
     }
 
     /// Notes that a variable of the block got no register. Who got those that there are is told of the program.

@@ -66,7 +66,7 @@ impl<'p> Emitter<'p> {
         for op in nc.ops() {
             let (code, by_word) = self.code_of(op, nc);
             if op.is_flow() || (code.is_none() && !by_word) {
-                self.out.other_words(op);
+                self.out.unmapped(format_args!("the operation '{op}' with these words"));
             }
             codes.push(code);
         }

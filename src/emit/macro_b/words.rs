@@ -2,7 +2,7 @@
 
 use super::Emitter;
 use super::expressions::Place;
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::dialect::{BareLength, CodeHead, Question};
 use crate::emit::common::spellings::{Code, Operand};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
@@ -115,7 +115,12 @@ impl<'p> Emitter<'p> {
             });
             let by_word = || control.word_for(op).is_some_and(|row| nc.word(row.role).is_some());
             if op.is_flow() || (code.is_none() && !by_word()) {
-                self.out.other_words(op);
+                // Additional work offsets are as many as its profile says.
+                let hint = match op {
+                    Op::SelectWork => " (`work_offsets` of its machine profile says how many it has)",
+                    _ => "",
+                };
+                self.out.unmapped(format_args!("the operation '{op}' with these words{hint}"));
             }
             codes.push(code);
         }
