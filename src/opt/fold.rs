@@ -49,6 +49,9 @@ fn is_introduced(stmt: &Stmt) -> bool {
 /// Folds the operations in a word of the source. What a control computes for it is rounded, and a number that is written with so many places
 /// may be read in another way, so the last operation stays where the number would have more than an increment.
 fn fold_word(e: &mut Expr) {
+    if matches!(e, Expr::Number(_) | Expr::Var(_) | Expr::Vacant) {
+        return;
+    }
     let was = e.clone();
     fold(e);
     if *e != was && matches!(e, Expr::Number(number) if is_finer_than_words(*number)) {

@@ -66,6 +66,20 @@ impl ModalFacts {
         let entry = own.and_then(|own| own.get(block.index()));
         entry.and_then(Option::as_deref).cloned().unwrap_or_else(Modal::unknown)
     }
+
+    /// Goes through all statements of a library, each with the index of its program and what is in force before and after it.
+    pub fn each(&self, module: &Module, f: &mut dyn FnMut(usize, &Stmt, &Modal, &Modal)) {
+        for (index, program) in module.programs.iter().enumerate() {
+            for (id, block) in program.ids().zip(&program.blocks) {
+                let mut after = self.at(index, id);
+                for stmt in &block.stmts {
+                    let before = after.clone();
+                    after.step(stmt);
+                    f(index, stmt, &before, &after);
+                }
+            }
+        }
+    }
 }
 
 /// A program entered at a block.

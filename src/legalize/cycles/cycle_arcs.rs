@@ -7,7 +7,7 @@
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BlockId, Module, Nc};
+use crate::ir::{Module, Nc};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
@@ -21,28 +21,19 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Reports arcs under cycles.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (at, block) in program.blocks.iter().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            for stmt in &block.stmts {
-                if let Some(nc) = stmt.kind.nc()
-                    && arcs(nc)
-                {
-                    match state.op(Group::Cycle) {
-                        Some(Op::CycleOff) => {}
-                        Some(_) => {
-                            context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, UNDER));
-                        }
-                        None => {
-                            let finding = Diagnostic::new(Code::Conditional, stmt.site.span, MAY_BE);
-                            context.add_once(index, MAY_BE, finding);
-                        }
-                    }
-                }
-                state.step(stmt);
+    facts.each(module, &mut |index, stmt, before, _| {
+        if !stmt.kind.nc().is_some_and(arcs) {
+            return;
+        }
+        match before.op(Group::Cycle) {
+            Some(Op::CycleOff) => {}
+            Some(_) => context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, UNDER)),
+            None => {
+                let finding = Diagnostic::new(Code::Conditional, stmt.site.span, MAY_BE);
+                context.add_once(index, MAY_BE, finding);
             }
         }
-    }
+    });
 }
 
 /// True for an arc that does not stand beside the end of the cycle.

@@ -7,7 +7,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Module, Nc};
+use crate::ir::{Module, Nc};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use std::collections::BTreeMap;
@@ -36,26 +36,19 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         |nc: &Nc| nc.ops().any(|op| op.is_cycle() && takes(op)) && nc.word(Role::CycleDwell).is_none();
     // A wait under a cycle without a dwell is kept for one of them.
     let later = stmts.filter_map(|stmt| stmt.kind.nc()).any(untold);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (at, block) in program.blocks.iter().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            for stmt in &block.stmts {
-                let span = stmt.site.span;
-                if stmt.kind.nc().is_some_and(waits) {
-                    match state.op(Group::Cycle) {
-                        Some(op) if op.is_cycle() && (later || takes(op)) => {
-                            context.add(index, Diagnostic::new(Code::NoEquivalent, span, SHARED));
-                        }
-                        Some(_) => {}
-                        None => {
-                            context.add_once(index, MAY_BE, Diagnostic::new(Code::Conditional, span, MAY_BE));
-                        }
-                    }
-                }
-                state.step(stmt);
-            }
+    facts.each(module, &mut |index, stmt, before, _| {
+        if !stmt.kind.nc().is_some_and(waits) {
+            return;
         }
-    }
+        let span = stmt.site.span;
+        match before.op(Group::Cycle) {
+            Some(op) if op.is_cycle() && (later || takes(op)) => {
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, SHARED));
+            }
+            Some(_) => {}
+            None => context.add_once(index, MAY_BE, Diagnostic::new(Code::Conditional, span, MAY_BE)),
+        }
+    });
 }
 
 /// True for a wait that does not stand beside the end of the cycle.

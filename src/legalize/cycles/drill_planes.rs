@@ -2,12 +2,12 @@
 //!
 //! Law: a hole goes along the axis of its plane. A control whose cycles run under G17 alone has no such hole, and of a source
 //! that has none it is not known what it does there: the program is refused. Where nobody says whether a control has one, the
-//! program rests on that it has; where the plane hangs on the path, it is for review.
+//! program rests on that it has; if the plane depends on the path, it is for review.
 
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
-use crate::ir::{BlockId, Module, Nc};
+use crate::ir::{Module, Nc};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
@@ -23,20 +23,12 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Reports cycles in other planes.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (at, block) in program.blocks.iter().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            for stmt in &block.stmts {
-                state.step(stmt);
-                if let Some(nc) = stmt.kind.nc()
-                    && drills(nc, &state)
-                    && state.op(Group::Plane) != Some(Op::PlaneXy)
-                {
-                    report(context, index, stmt.site.span, state.op(Group::Plane).is_some());
-                }
-            }
+    facts.each(module, &mut |index, stmt, _, after| {
+        let plane = after.op(Group::Plane);
+        if plane != Some(Op::PlaneXy) && stmt.kind.nc().is_some_and(|nc| drills(nc, after)) {
+            report(context, index, stmt.site.span, plane.is_some());
         }
-    }
+    });
 }
 
 /// True for a block that begins a cycle, or goes somewhere under one; `after` is what is in force after it.
@@ -52,7 +44,7 @@ fn report(context: &mut Context<'_>, index: usize, span: Span, known: bool) {
         };
         if !known {
             let what = format!(
-                "a drilling cycle in a plane that hangs on the path: make sure that it is G17, which the {side}'s cycles need"
+                "the plane of this drilling cycle depends on the path: make sure that it is G17, which the {side}'s cycles need"
             );
             context.add_once(index, "cycle.plane", Diagnostic::new(Code::Conditional, span, what));
             return;

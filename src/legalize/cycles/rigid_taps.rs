@@ -99,7 +99,7 @@ const LEFT: Told = (
     "write M5 before the code for the rigid tap",
 );
 
-/// The places where what stands behind the code for a rigid tap is no tap that it could make rigid.
+/// Where the code for a rigid tap is followed by something else than a tap that it can make rigid.
 fn misplaced(block: &Block, mut state: Modal) -> Vec<(crate::text::Span, Told)> {
     let mut found = Vec::new();
     let mut waits = false;
@@ -110,8 +110,8 @@ fn misplaced(block: &Block, mut state: Modal) -> Vec<(crate::text::Span, Told)> 
             let left = state.op(Group::Spindle) == Some(Op::SpindleCcw);
             let told = if (waits || rigid) && nc.ops().any(|op| op.group() == Group::Spindle) {
                 Some(TURNS)
-            } else if (waits && !taps && (goes(nc) || nc.word(Role::Speed).is_some()))
-                || rigid && !taps && goes(nc)
+            } else if (waits && !taps && (nc.names_axis() || nc.word(Role::Speed).is_some()))
+                || rigid && !taps && nc.names_axis()
             {
                 Some(MOVES)
             } else if (waits || rigid) && taps && left && !nc.has(Op::CycleTapLeft) {
@@ -125,11 +125,6 @@ fn misplaced(block: &Block, mut state: Modal) -> Vec<(crate::text::Span, Told)> 
         state.step(stmt);
     }
     found
-}
-
-/// True where an axis word stands in a block.
-fn goes(nc: &Nc) -> bool {
-    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_axis()))
 }
 
 /// Takes the code out of its block; the speed beside it stays.

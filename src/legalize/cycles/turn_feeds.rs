@@ -10,6 +10,7 @@ use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
+use crate::legalize::moves::inverse_feeds::{goes, needs_no_feed};
 use crate::legalize::{Context, Modal};
 use std::collections::BTreeMap;
 
@@ -97,16 +98,8 @@ fn turned(nc: &Nc, state: &Modal, speed: Speed) -> Option<Option<f64>> {
 
 /// True where a block may cut at the feed in force.
 fn cuts(nc: &Nc, state: &Modal) -> bool {
-    let axes = nc.items.iter().any(|item| {
-        matches!(item, NcItem::Word(role, _) if role.is_axis() || matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK))
-    });
     let rapid = state.op(Group::Motion) == Some(Op::Rapid) && state.op(Group::Cycle) == Some(Op::CycleOff);
-    let aside = |op: Op| {
-        op.takes_axes()
-            || matches!(op, Op::RapidOnce | Op::Dwell | Op::Home)
-            || matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::ReferenceFrom)
-    };
-    nc.ops().any(Op::is_cycle) || axes && !rapid && !nc.ops().any(aside)
+    nc.ops().any(Op::is_cycle) || goes(nc) && !rapid && !nc.ops().any(needs_no_feed)
 }
 
 /// Puts feed per minute in place of feed per turn.

@@ -75,17 +75,19 @@ fn wrong(nc: &Nc, state: &Modal, feed: Feed) -> Option<Told> {
 
 /// True where a block moves at a feed.
 fn cuts(nc: &Nc, state: &Modal) -> bool {
-    let aside = |op: Op| {
-        op.takes_axes()
-            || matches!(op, Op::RapidOnce | Op::MachineOnce | Op::Dwell | Op::Home)
-            || matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::ReferenceFrom)
-    };
     let motion = state.op(Group::Motion);
-    goes(nc) && motion.is_some_and(|op| op != Op::Rapid) && !nc.ops().any(aside)
+    goes(nc) && motion.is_some_and(|op| op != Op::Rapid) && !nc.ops().any(needs_no_feed)
+}
+
+/// True for a code whose block moves at no feed, whatever motion is in force.
+pub(in crate::legalize) fn needs_no_feed(op: Op) -> bool {
+    op.takes_axes()
+        || matches!(op, Op::RapidOnce | Op::MachineOnce | Op::Dwell | Op::Home)
+        || matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::ReferenceFrom)
 }
 
 /// True where an axis, or the centre of an arc, stands in a block.
-fn goes(nc: &Nc) -> bool {
+pub(in crate::legalize) fn goes(nc: &Nc) -> bool {
     let across = |role: &Role| role.is_axis() || matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK);
     nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if across(role)))
 }

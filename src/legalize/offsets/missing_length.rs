@@ -5,7 +5,7 @@
 
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
-use crate::ir::{BlockId, Module, Nc};
+use crate::ir::{Module, Nc};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
@@ -18,23 +18,17 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Says what rests on the controls.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (at, block) in program.blocks.iter().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            for stmt in &block.stmts {
-                let bare = stmt.kind.nc().is_some_and(is_bare);
-                if bare && !state.length_word {
-                    let span = stmt.site.span;
-                    context.rests_on_source(index, span, Question::LengthNeverNamed);
-                    if context.target.behaviour(Question::LengthNeverNamed).is_some() {
-                        context.rests_on_target(index, span, Question::LengthNeverNamed);
-                        context.must_agree(index, span, Question::LengthNeverNamed);
-                    }
-                }
-                state.step(stmt);
-            }
+    facts.each(module, &mut |index, stmt, before, _| {
+        if before.length_word || !stmt.kind.nc().is_some_and(is_bare) {
+            return;
         }
-    }
+        let span = stmt.site.span;
+        context.rests_on_source(index, span, Question::LengthNeverNamed);
+        if context.target.behaviour(Question::LengthNeverNamed).is_some() {
+            context.rests_on_target(index, span, Question::LengthNeverNamed);
+            context.must_agree(index, span, Question::LengthNeverNamed);
+        }
+    });
 }
 
 /// True for a code of the length without its number.

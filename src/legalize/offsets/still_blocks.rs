@@ -1,7 +1,7 @@
 //! Blocks without a move between moves with cutter compensation.
 //!
 //! Law: a control that reads ahead for compensation takes some such blocks and not more. Where its table asks how many, and the
-//! profile does not say that any may stand there, each place rests on it. Counter-example: a comment behind G40.
+//! profile does not say that any may stand there, each place rests on it. Counter-example: a comment after G40.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};

@@ -216,19 +216,8 @@ fn by_two_blocks(machine: &Machine, command: &Command) -> Result<Screw, Stop> {
         form.allowance.or(turning.thread_allowance).ok_or_else(|| unset("finishing allowance"))?;
     let (height, first) = (length(Role::ThreadHeight), length(Role::ThreadFirst));
     let angle = digits % 100.0;
-    if turning.thread_angles.as_ref().is_some_and(|angles| !angles.contains(&angle)) {
-        return Err(alarm("PS0315", "an angle that no thread of this control has"));
-    }
-    if height <= 0.0 || first <= 0.0 {
-        return Err(alarm("PS0317", "a thread without its height or its first depth"));
-    }
-    if least > height {
-        return Err(alarm("PS0316", "the least depth of the thread is over its height"));
-    }
     let finishes = (digits / 10_000.0).floor();
-    if !(1.0..100.0).contains(&finishes) {
-        return Err(Stop::unnamed("a thread without a finishing pass"));
-    }
+    check_values(turning, angle, (height, first, least), finishes)?;
     let taper = length(Role::Taper);
     let finishes = finishes as u32;
     Ok(Screw { height, first, least, allowance, finishes, angle, taper, even: false, both: None })
@@ -274,15 +263,13 @@ fn by_one_block(machine: &Machine, command: &Command, trace: &mut Trace) -> Resu
     })
 }
 
-/// Least depth, allowance and finishing passes that parameters say where no block can, and the alarms of such a control (P1, P3).
-fn by_parameters(
+/// The alarms at values that no thread can have (P1, P3).
+fn check_values(
     turning: &Turning,
     angle: f64,
-    (height, first): (f64, f64),
-) -> Result<(f64, f64, u32), Stop> {
-    let least = turning.thread_least.ok_or_else(|| unset("least depth"))?;
-    let allowance = turning.thread_allowance.ok_or_else(|| unset("finishing allowance"))?;
-    let finishes = turning.thread_finishes.ok_or_else(|| unset("number of finishing passes"))?;
+    (height, first, least): (f64, f64, f64),
+    finishes: f64,
+) -> Result<(), Stop> {
     if turning.thread_angles.as_ref().is_some_and(|angles| !angles.contains(&angle)) {
         return Err(alarm("PS0315", "an angle that no thread of this control has"));
     }
@@ -295,6 +282,19 @@ fn by_parameters(
     if !(1.0..100.0).contains(&finishes) {
         return Err(Stop::unnamed("a thread without a finishing pass"));
     }
+    Ok(())
+}
+
+/// Least depth, allowance and finishing passes that parameters say where no block can.
+fn by_parameters(
+    turning: &Turning,
+    angle: f64,
+    (height, first): (f64, f64),
+) -> Result<(f64, f64, u32), Stop> {
+    let least = turning.thread_least.ok_or_else(|| unset("least depth"))?;
+    let allowance = turning.thread_allowance.ok_or_else(|| unset("finishing allowance"))?;
+    let finishes = turning.thread_finishes.ok_or_else(|| unset("number of finishing passes"))?;
+    check_values(turning, angle, (height, first, least), finishes)?;
     Ok((least, allowance, finishes as u32))
 }
 
