@@ -162,7 +162,7 @@ impl Control {
         }
     }
 
-    /// How many parts of one a scale factor without a decimal point counts; none where that is not known.
+    /// How many parts a scale factor of 1 has if it is written without a decimal point: 1000 for thousandths. None if that is not known.
     pub fn scale_parts(&self) -> Option<f64> {
         match self.behaviour(Question::ScaleBare)?.value.as_str() {
             "units" => Some(1.0),

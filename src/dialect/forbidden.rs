@@ -109,8 +109,8 @@ impl Control {
         Some((row, self.setting(&row.name)))
     }
 
-    /// The setting by which roughing leaves out its pass along a contour, of one with valleys or of one without; none where it
-    /// does not.
+    /// The setting by which roughing leaves out its last pass along the contour; contours with valleys have one of their own. None if it
+    /// makes that pass.
     pub fn skips_along(&self, valleys: bool) -> Option<&Setting> {
         let name = if valleys { "roughing.skips.valleys" } else { "roughing.skips.steps" };
         self.told(name).filter(|(_, value)| *value == Some("1")).map(|(row, _)| row)

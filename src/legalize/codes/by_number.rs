@@ -183,7 +183,7 @@ pub(in crate::legalize) fn numbers<'p>(
 /// Numbers of a loop's counter, at the most.
 const MOST_COUNTED: f64 = 100.0;
 
-/// The whole numbers between two bounds, as a loop counts through them; none where they are too many or fractions.
+/// The whole numbers between two bounds, as a loop counts through them. None if there are too many, or fractions among them.
 fn counted(values: &Values) -> Option<Vec<Number>> {
     let (low, high) =
         values.bounds().filter(|(low, high)| values.all_whole() && high - low < MOST_COUNTED)?;

@@ -125,7 +125,7 @@ fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String)> {
         at += way;
         if place == end && way * along < 0.0 {
             let what = format!(
-                "N{last}, the last block of this contour, goes back along Z, where the control stops: Z of a contour turns nowhere"
+                "N{last}, the last block of this contour, goes back along Z, and the control stops there: Z of a contour may not turn back"
             );
             return Some((stmt.site.span, what));
         }

@@ -43,8 +43,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-/// In what the target ends the roughing of such a contour otherwise; none where it does not. Of a contour of which nobody knows whether
-/// it has valleys, what is so of either.
+/// How the target ends the roughing of such a contour otherwise. None if it ends it alike. If nobody knows whether the contour has
+/// valleys, what holds for either counts.
 fn otherwise(valleys: Option<bool>, context: &Context<'_>) -> Option<String> {
     let kinds = valleys.map_or(vec![false, true], |valleys| vec![valleys]);
     let of = |control: &Control| kinds.iter().find_map(|kind| Some(skip_of(control.skips_along(*kind)?)));
