@@ -29,8 +29,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             {
                 mirror(nc, index, span, context);
             }
-            if stmt.kind.nc().is_some_and(scales) && context.target.scale_parts().is_none() {
-                context.rests_on_target(index, span, Question::ScalePoint);
+            if let Some(nc) = stmt.kind.nc().filter(|nc| scales(nc)) {
+                let counts_parts =
+                    [context.source, context.target].iter().any(|control| control.scale_parts() != Some(1.0));
+                if counts_parts && nc.items.iter().any(is_computed_factor) {
+                    context.add_once(index, COMPUTED, Diagnostic::new(Code::Conditional, span, COMPUTED));
+                }
+                if context.target.scale_parts().is_none() {
+                    context.rests_on_target(index, span, Question::ScalePoint);
+                }
             }
         }
     }
@@ -58,6 +65,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.rests_on_target(index, span, question);
         }
     }
+}
+
+const COMPUTED: &str = "the scale factor is computed, and no source says whether a control takes its value or counts parts of it, as it does \
+     with a number without a point: make sure that both take the value";
+
+fn is_computed_factor(item: &NcItem) -> bool {
+    matches!(item, NcItem::Word(role, value) if role.is_scale() && value.constant().is_none())
 }
 
 /// True for a block that begins scaling by a factor of its own.
