@@ -134,6 +134,27 @@ impl Cond {
             Cond::Switch(n) => Cond::Not(Box::new(Cond::Switch(n))),
         }
     }
+
+    /// What comparisons for equal say on the way on which this holds, or does not: a variable, what it was compared with,
+    /// and whether the two differ.
+    pub fn likened<'e>(&'e self, holds: bool, each: &mut impl FnMut(Var, &'e Expr, bool)) {
+        match (self, holds) {
+            (Cond::Not(inner), _) => inner.likened(!holds, each),
+            (Cond::And(all), true) | (Cond::Or(all), false) => {
+                all.iter().for_each(|cond| cond.likened(holds, each));
+            }
+            (
+                Cond::Compare(relation, Expr::Var(var), other)
+                | Cond::Compare(relation, other, Expr::Var(var)),
+                _,
+            ) => match relation {
+                Relation::Equal => each(*var, other, !holds),
+                Relation::NotEqual => each(*var, other, holds),
+                _ => {}
+            },
+            _ => {}
+        }
+    }
 }
 
 impl Expr {

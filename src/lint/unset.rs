@@ -8,7 +8,7 @@ use super::looked::Looked;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Steps, reached_among, solve};
 use crate::ir::analysis::{BitRow, Cfg, Holds, Universe, Vars, own_call};
 use crate::ir::{
-    Bank, Block, BlockId, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var,
+    Bank, Block, BlockId, Callee, Class, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var,
 };
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,28 +94,12 @@ impl Rules<'_> {
 
     /// What a comparison for equal says of a variable on one of its ways.
     fn refine(&self, cond: &Cond, holds: bool, row: &mut BitRow) {
-        match (cond, holds) {
-            (Cond::Not(inner), _) => self.refine(inner, !holds, row),
-            (Cond::And(all), true) | (Cond::Or(all), false) => {
-                all.iter().for_each(|cond| self.refine(cond, holds, row));
+        cond.likened(holds, &mut |var, other, differs| {
+            let settled = if differs { is_vacant(other) } else { !self.is_unset(other, row) };
+            if let Some(at) = self.universe.place(var).filter(|_| settled) {
+                row.remove(at);
             }
-            (
-                Cond::Compare(relation, Expr::Var(var), other)
-                | Cond::Compare(relation, other, Expr::Var(var)),
-                _,
-            ) => {
-                let differs = match relation {
-                    Relation::Equal => !holds,
-                    Relation::NotEqual => holds,
-                    _ => return,
-                };
-                let settled = if differs { is_vacant(other) } else { !self.is_unset(other, row) };
-                if let Some(at) = self.universe.place(*var).filter(|_| settled) {
-                    row.remove(at);
-                }
-            }
-            _ => {}
-        }
+        });
     }
 }
 

@@ -17,6 +17,7 @@ mod pass;
 #[cfg(test)]
 mod random;
 mod retarget;
+mod set_before;
 mod unreachable;
 mod whole_parts;
 mod word_values;

@@ -14,15 +14,13 @@
 
 use super::pass::{Level, Library, Pass};
 use super::retarget::drop_statements;
+use super::set_before::{MOST_PARTS, is_computed, parts, run_before, set};
 use crate::canon::Func;
 use crate::ir::analysis::Liveness;
-use crate::ir::{BinOp, Block, BlockId, Class, Expr, Place, Program, Stmt, StmtKind, Var};
+use crate::ir::{BinOp, BlockId, Expr, Place, Program, Stmt, StmtKind, Var};
 
 /// The pass.
 pub struct Nested;
-
-/// Parts of an expression that is put together, at the most.
-const MOST_PARTS: usize = 32;
 
 impl Pass for Nested {
     fn name(&self) -> &'static str {
@@ -98,21 +96,6 @@ fn pairs(program: &Program, live: &Liveness) -> Vec<Pair> {
     found
 }
 
-/// The assignments of temporaries directly before a statement, and comments between them.
-fn run_before(block: &Block, at: usize) -> std::ops::Range<usize> {
-    let before = block.stmts.get(..at).unwrap_or_default();
-    let passed = |stmt: &&Stmt| set(stmt).is_some() || stmt.kind == StmtKind::Comment;
-    let count = before.iter().rev().take_while(passed).count();
-    at - count..at
-}
-
-/// The temporary that a statement sets, and its value.
-fn set(stmt: &Stmt) -> Option<(Var, &Expr)> {
-    let StmtKind::Assign { target: Place::Var(temp), value } = &stmt.kind else { return None };
-    let plain = stmt.site.comments.is_empty() && stmt.site.skip.is_none();
-    (plain && temp.class == Class::Temp).then_some((*temp, value))
-}
-
 /// How often an expression reads a variable.
 fn reads(e: &Expr, var: Var) -> usize {
     let mut count = 0;
@@ -142,17 +125,9 @@ fn is_sure(e: &Expr) -> bool {
     sure
 }
 
-/// True for an expression that is computed, of variables and numbers.
+/// True for an expression that is computed, and never vacant.
 fn is_plain(value: &Expr) -> bool {
-    let (mut plain, mut any) = (true, false);
-    value.walk(&mut |part| {
-        any |= matches!(part, Expr::Var(_));
-        plain &= !matches!(
-            part,
-            Expr::System(..) | Expr::Indirect(..) | Expr::Increments(_) | Expr::Vacant | Expr::Truth(_)
-        );
-    });
-    plain && any && !value.may_be_vacant()
+    is_computed(value) && !value.may_be_vacant()
 }
 
 /// True if nothing beside the temporary is computed before it is used.
@@ -168,12 +143,6 @@ fn stops_alone(whole: &Expr, temp: Var) -> bool {
         Expr::Call(_, arguments) => matches!(arguments.as_slice(), [only] if stops_alone(only, temp)),
         _ => false,
     }
-}
-
-fn parts(e: &Expr) -> usize {
-    let mut count = 0;
-    e.walk(&mut |_| count += 1);
-    count
 }
 
 fn whole_of(stmt: &Stmt) -> Option<&Expr> {

@@ -12,14 +12,12 @@
 
 use super::pass::{Level, Library, Pass};
 use super::retarget::drop_statements;
+use super::set_before::{MOST_PARTS, is_computed, parts, run_before, set};
 use crate::ir::analysis::Liveness;
-use crate::ir::{Block, BlockId, Class, Expr, NcItem, Place, Program, Stmt, StmtKind, Var};
+use crate::ir::{BlockId, Expr, NcItem, Place, Program, Stmt, StmtKind, Var};
 
 /// The pass.
 pub struct WordValues;
-
-/// Parts of an expression that goes into a word, at the most.
-const MOST_PARTS: usize = 32;
 
 impl Pass for WordValues {
     fn name(&self) -> &'static str {
@@ -84,21 +82,6 @@ fn places(program: &Program, live: &Liveness) -> Vec<Found> {
     found
 }
 
-/// The assignments of temporaries directly before a statement, and comments between them.
-fn run_before(block: &Block, at: usize) -> std::ops::Range<usize> {
-    let before = block.stmts.get(..at).unwrap_or_default();
-    let passed = |stmt: &&Stmt| set(stmt).is_some() || stmt.kind == StmtKind::Comment;
-    let count = before.iter().rev().take_while(passed).count();
-    at - count..at
-}
-
-/// The temporary that a statement sets, and its value.
-fn set(stmt: &Stmt) -> Option<(Var, &Expr)> {
-    let StmtKind::Assign { target: Place::Var(temp), value } = &stmt.kind else { return None };
-    let plain = stmt.site.comments.is_empty() && stmt.site.skip.is_none();
-    (plain && temp.class == Class::Temp).then_some((*temp, value))
-}
-
 /// True where the whole of a word is the temporary, whatever its sign.
 fn holds(item: &NcItem, temp: Var) -> bool {
     let NcItem::Word(_, value) = item else { return false };
@@ -126,18 +109,9 @@ fn keeps(stmt: &Stmt, temp: Var, value: &Expr) -> bool {
 
 /// True for an expression of a few variables and numbers that is never vacant.
 fn is_plain(value: &Expr) -> bool {
-    let (mut parts, mut plain, mut any) = (0, true, false);
-    value.walk(&mut |part| {
-        parts += 1;
-        any |= matches!(part, Expr::Var(_));
-        plain &= !matches!(
-            part,
-            Expr::System(..) | Expr::Indirect(..) | Expr::Increments(_) | Expr::Vacant | Expr::Truth(_)
-        );
-    });
     // A word with a minus is not there where what follows is vacant.
     let inner = if let Expr::Negate(inner) = value { inner } else { value };
-    plain && any && parts <= MOST_PARTS && !inner.may_be_vacant()
+    is_computed(value) && parts(value) <= MOST_PARTS && !inner.may_be_vacant()
 }
 
 fn put(kind: &mut StmtKind, temp: Var, value: &Expr) {

@@ -32,7 +32,7 @@ pub struct LiveStatics {
 impl LiveStatics {
     /// Of a library.
     pub fn of(module: &Module) -> Self {
-        let universe = universe(module);
+        let universe = statics(module);
         let names = module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at)));
         let none = || vec![universe.none(); module.programs.len()];
         let (written, entries, exits, reads) = (none(), none(), none(), none());
@@ -245,7 +245,7 @@ impl LiveStatics {
 }
 
 /// The statics that a library names.
-fn universe(module: &Module) -> Universe {
+pub fn statics(module: &Module) -> Universe {
     let mut all = VarSet::default();
     for program in &module.programs {
         program.variables(&mut |var| {

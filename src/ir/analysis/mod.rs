@@ -28,7 +28,7 @@ mod values;
 pub use call_graph::CallGraph;
 pub use cfg::{Cfg, may_come_back, modal_bodies, own_call, reachable};
 pub use effects::{Seen, Summaries, Vars};
-pub use live_statics::LiveStatics;
+pub use live_statics::{LiveStatics, statics};
 pub use liveness::{Liveness, Transfer, Ways, live_after};
 pub use modal::{Modal, Setting, calls_of, span_of};
 pub use modal_facts::{ModalFacts, replace_statements};

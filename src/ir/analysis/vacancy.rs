@@ -283,29 +283,13 @@ impl Rules<'_> {
     }
 
     fn refine(&self, cond: &Cond, holds: bool, row: &mut BitRow) {
-        match (cond, holds) {
-            (Cond::Not(inner), _) => self.refine(inner, !holds, row),
-            (Cond::And(all), true) | (Cond::Or(all), false) => {
-                all.iter().for_each(|cond| self.refine(cond, holds, row));
+        cond.likened(holds, &mut |var, other, differs| {
+            // Not vacant: unlike vacant, or like something that never is.
+            let settled = if differs { is_vacant(other) } else { !self.yields_vacant(other, row) };
+            if let Some(at) = self.universe.place(var).filter(|_| settled) {
+                row.remove(at);
             }
-            (
-                Cond::Compare(relation, Expr::Var(var), other)
-                | Cond::Compare(relation, other, Expr::Var(var)),
-                _,
-            ) => {
-                let differs = match relation {
-                    Relation::Equal => !holds,
-                    Relation::NotEqual => holds,
-                    _ => return,
-                };
-                // Not vacant: unlike vacant, or like something that never is.
-                let settled = if differs { is_vacant(other) } else { !self.yields_vacant(other, row) };
-                if let Some(at) = self.universe.place(*var).filter(|_| settled) {
-                    row.remove(at);
-                }
-            }
-            _ => {}
-        }
+        });
     }
 
     fn yields_vacant(&self, e: &Expr, row: &BitRow) -> bool {

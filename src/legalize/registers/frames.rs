@@ -17,8 +17,8 @@ pub(in crate::legalize) mod repeats;
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
+use crate::ir::analysis::statics;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
-use crate::ir::analysis::{Universe, VarSet};
 use crate::ir::{
     Bank, Block, BlockId, Callee, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind,
     Terminator, Var,
@@ -75,19 +75,6 @@ fn held(index: usize, program: &Program, levels: &Levels, source: &Control) -> V
         }
     }
     held
-}
-
-/// The statics that a library names.
-fn statics(module: &Module) -> Universe {
-    let mut all = VarSet::default();
-    for program in &module.programs {
-        program.variables(&mut |var| {
-            if var.class == Class::Static {
-                all.insert(var);
-            }
-        });
-    }
-    Universe::new(all.iter().collect())
 }
 
 /// A computed number cannot find what a local became.
