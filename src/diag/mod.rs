@@ -55,6 +55,8 @@ pub struct Diagnostic {
     pub assumes: Option<Arc<Predicate>>,
     /// The code, letter and number, of which the source's machine profile may say what the builder made of it.
     pub asks: Option<(char, f64)>,
+    /// The setting that the source's machine profile would have to state, as its table names it.
+    pub setting: Option<Arc<str>>,
     /// True for what a person decides once for the library and its machines: a program has a note of it.
     pub once: bool,
     /// Who accepted it, if somebody did: it asks nothing then.
@@ -71,6 +73,7 @@ impl Diagnostic {
             help: None,
             assumes: None,
             asks: None,
+            setting: None,
             once: false,
             accepted: None,
         }
@@ -87,6 +90,13 @@ impl Diagnostic {
     #[must_use]
     pub fn asking(mut self, letter: char, number: f64) -> Self {
         self.asks = Some((letter, number));
+        self
+    }
+
+    /// Names the setting that the source's machine profile would have to state.
+    #[must_use]
+    pub fn lacking(mut self, setting: impl Into<Arc<str>>) -> Self {
+        self.setting = Some(setting.into());
         self
     }
 

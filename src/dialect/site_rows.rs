@@ -151,12 +151,14 @@ impl Overlay {
         }
     }
 
-    /// A code that ends a program, calls one or sets a mode does so whatever a builder adds.
+    /// A code that ends a program, calls one or sets a mode does so whatever a builder adds. Of a cycle that only this family
+    /// of controls has a row says what becomes of it elsewhere.
     fn check_standard(&mut self, site: &SiteCode, row: &CodeMeaning, dialect: &Dialect) {
         let standard = (dialect.codes.iter())
             .filter(|old| old.head() == row.head() && old.beside() == row.beside())
             .find(|old| {
-                let switched = matches!(old.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
+                let switched = matches!(old.op.group(), Group::OneShot | Group::Spindle | Group::Coolant)
+                    || old.op == Op::CycleOther;
                 old.op.is_flow() || !switched
             });
         if let Some(standard) = standard {

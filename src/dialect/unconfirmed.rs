@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 /// Which control of a conversion a fact is about; a program that is only read has the source's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
     /// The control that the programs were written for.
     Source,
@@ -72,6 +72,9 @@ impl Control {
     /// What a machine profile says to settle a fact of this control: the setting that it hangs on where there is one and
     /// nobody stated it, an answer, or that it is so.
     pub fn settled_by(&self, fact: &str) -> Settled {
+        if fact == "numbers" {
+            return Settled::POINT;
+        }
         let row = Question::of_fact(fact).and_then(|question| self.behaviour(question));
         let open = row.is_some_and(|row| row.value == "setting");
         // A setting answers it where each of its values does, or where nothing else does.
@@ -139,6 +142,9 @@ pub enum Settled {
 impl Settled {
     /// What a profile says of the unit that its machine starts in.
     pub const UNITS: Self = Self::Key { name: "units", values: &["inch", "metric"] };
+
+    /// What a profile says of numbers without a decimal point.
+    pub const POINT: Self = Self::Key { name: "decimal_point", values: &["calculator", "increments"] };
 
     /// A key or a setting with the values that it may have, as a line of a profile.
     pub fn choice<S: AsRef<str>>(name: &str, values: &[S]) -> String {

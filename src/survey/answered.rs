@@ -6,7 +6,9 @@
 
 use super::Survey;
 use crate::canon::Group;
-use crate::dialect::{Control, Plain, Profile, Question, Settled, SiteCode, Units, Without};
+use crate::dialect::{
+    Control, DecimalPoint, Plain, Profile, Question, Settled, Side, SiteCode, Units, Without,
+};
 use crate::report::Questions;
 use std::collections::BTreeMap;
 
@@ -20,7 +22,9 @@ type Answer = Box<dyn Fn(&mut Profile)>;
 pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let [source, target] = survey.controls;
     let asked = |control: &Control, other: &Control| {
-        survey.with_questions(|questions| facts(questions, control, other, chosen))
+        let now = survey.with_questions(|questions| facts(questions, control, other, chosen));
+        let later = survey.with_later(|questions| facts(questions, control, other, chosen));
+        now.into_iter().chain(later).collect::<Vec<Answer>>()
     };
     let codes = survey.codes.iter().take(CODES).map(|asked| -> Answer {
         let code = asked.code.clone();
@@ -30,10 +34,27 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let begins = survey.start.iter().filter(|asked| asked.group != Group::Units);
     let begins: Vec<String> = begins.filter_map(|asked| asked.codes.first().cloned()).collect();
     let start = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &begins)) });
-    let answered = with(source, codes.chain(asked(source, target)).chain(start).collect());
-    let target = with(target, asked(target, source));
+    let answered = with(
+        source,
+        codes.chain(asked(source, target)).chain(start).chain(settings(survey, Side::Source)).collect(),
+    );
+    let target =
+        with(target, asked(target, source).into_iter().chain(settings(survey, Side::Target)).collect());
     let as_they_are = [answered.clone(), target.clone()];
     Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])
+}
+
+/// The settings that programs wait for, as a machine might have them.
+fn settings<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answer> + use<'s> {
+    survey.settings.iter().filter(move |asked| asked.side == side).map(|asked| -> Answer {
+        let (section, name, value) = (asked.section, asked.name.clone(), asked.usual());
+        Box::new(move |profile| set(profile, section, &name, &value))
+    })
+}
+
+fn set(profile: &mut Profile, section: &str, name: &str, value: &str) {
+    let section = if section == "parameters" { &mut profile.parameters } else { &mut profile.settings };
+    section.insert(name.to_owned(), Plain::Word(value.to_owned()));
 }
 
 /// Adds what programs begin in to what the profile says of that.
@@ -76,14 +97,11 @@ fn answer(settled: Settled, other: &Control) -> Option<Answer> {
         Settled::Confirmed(fact) => Box::new(move |profile| profile.confirm.push(fact.clone())),
         Settled::Setting { section, name, values } => {
             let value = values.into_iter().next()?;
-            Box::new(move |profile| {
-                let section =
-                    if section == "parameters" { &mut profile.parameters } else { &mut profile.settings };
-                section.insert(name.clone(), Plain::Word(value.clone()));
-            })
+            Box::new(move |profile| set(profile, section, &name, &value))
         }
-        // The unit: either answers it.
-        Settled::Key { .. } => Box::new(|profile| profile.units = Some(Units::Metric)),
+        // Either answers it.
+        Settled::Key { name: "units", .. } => Box::new(|profile| profile.units = Some(Units::Metric)),
+        Settled::Key { .. } => Box::new(|profile| profile.decimal_point = Some(DecimalPoint::Calculator)),
         Settled::Answer { question, answers } => {
             let there = Question::find(&question).and_then(|question| other.behaviour(question));
             let mut all = answers.split(" or ").map(|answer| answer.trim_matches('"'));

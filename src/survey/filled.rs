@@ -3,7 +3,7 @@
 //! What stands in the profile stays, byte for byte. Each question is a comment that begins with `#?`: who answers it takes
 //! these signs away. The next survey takes the questions out that are left, and puts its own in.
 
-use super::{AskedStart, Survey};
+use super::{AskedSetting, AskedStart, Survey};
 use crate::dialect::{Control, Machine, Profile, Settled, Side};
 use crate::report::{Fact, Questions};
 use std::collections::BTreeMap;
@@ -12,8 +12,8 @@ use std::fmt::Write;
 /// What a line begins with that is a question.
 const ASKS: &str = "#?";
 
-/// Places that are named beside a question, and letters of its text.
-const LONGEST: usize = 140;
+/// Letters of a question's text.
+const LONGEST: usize = 300;
 
 /// Why a profile could not be filled.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,6 +38,16 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     }
     let before = read(old.unwrap_or(&text))?;
     let mut asked = survey.with_questions(|questions| lines(questions, control));
+    for (section, later) in survey.with_later(|questions| lines(questions, control)) {
+        asked.entry(section).or_default().push_str(&later);
+    }
+    for setting in survey.settings.iter().filter(|setting| setting.side == side) {
+        let lines = asked.entry(setting.section).or_default();
+        let line = line_of(setting);
+        if !lines.contains(&format!("{ASKS} {} = ", setting.name)) {
+            lines.push_str(&line);
+        }
+    }
     let lathe = lathe(survey, side);
     if let Some((system, of)) = lathe.as_ref().and_then(|(_, system)| system.as_ref()) {
         let line = format!("{ASKS} gcode_system = \"{system}\" # {of}\n");
@@ -49,7 +59,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;
     }
-    text = with_machine(&text, control.profile(), lathe.map(|(line, _)| line));
+    let point = survey.with_questions(|questions| point(questions, control));
+    let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
+    text = with_machine(&text, control.profile(), lathe.map(|(line, _)| line), point);
     if side == Side::Source {
         codes(&mut text, survey);
     }
@@ -72,15 +84,27 @@ fn without_questions(text: &str) -> String {
     text.split_inclusive('\n').filter(|line| !line.trim_start().starts_with(ASKS)).collect()
 }
 
+/// What numbers without a decimal point count, as a line, if programs rest on it.
+fn point(questions: &Questions<'_>, control: &Control) -> Option<String> {
+    let fact = facts(questions, control).find(|fact| fact.settled_by == Settled::POINT)?;
+    let places = counted(fact.asked.programs, &fact.asked.places);
+    let choice = "decimal_point = \"calculator\" or \"increments\"";
+    Some(format!("{choice} # what X10 without a point counts: whole units, or least increments ({places})"))
+}
+
+fn facts<'q, 'a>(questions: &'q Questions<'a>, control: &Control) -> impl Iterator<Item = &'q Fact<'a>> {
+    let is_it = |of: &Control| of.name() == control.name() && of.profile().file == control.profile().file;
+    questions.machines.iter().filter(move |machine| is_it(machine.control)).flat_map(|machine| &machine.facts)
+}
+
 /// The questions of a machine as lines, by section of its profile; those of most programs first.
 fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str, String> {
     let mut all: BTreeMap<&'static str, String> = BTreeMap::new();
-    let is_it = |of: &Control| of.name() == control.name() && of.profile().file == control.profile().file;
-    for fact in questions.machines.iter().filter(|machine| is_it(machine.control)).flat_map(|m| &m.facts) {
+    for fact in facts(questions, control) {
         let (section, line) = match &fact.settled_by {
             Settled::Confirmed(name) => ("confirm", format!("\"{name}\",")),
             Settled::Setting { section, name, values } => (*section, Settled::choice(name, values)),
-            // It stands at the head of every profile that does not say it.
+            // They stand at the head of every profile that does not say them.
             Settled::Key { .. } => continue,
             Settled::Answer { question, answers } => ("behaviours", format!("\"{question}\" = {answers}")),
         };
@@ -89,14 +113,38 @@ fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str,
     all
 }
 
+/// A setting that programs wait for, as a line.
+fn line_of(setting: &AskedSetting) -> String {
+    let AskedSetting { name, values, default, meaning, programs, places, .. } = setting;
+    let choice = Settled::choice(name, values);
+    let usual = default.as_ref().map_or(String::new(), |default| format!("; {default} if nobody changed it"));
+    format!("{ASKS} {choice} # {} ({}{usual})\n", short(&plain(meaning)), counted(*programs, places))
+}
+
+/// `4 programs: a.nc:3, b.nc:1`.
+fn counted(programs: usize, places: &[String]) -> String {
+    let programs = if programs == 1 { String::new() } else { format!("{programs} programs: ") };
+    format!("{programs}{}", plain(&places.join(", ")))
+}
+
+/// A text that a line has room for, cut between two words.
+fn short(text: &str) -> String {
+    match text.char_indices().nth(LONGEST) {
+        None => text.to_owned(),
+        Some((end, _)) => {
+            let kept = text.get(..end).unwrap_or_default();
+            let words = kept.rsplit_once(' ').map_or(kept, |(words, _)| words);
+            format!("{} ...", words.trim_end_matches([',', ';', ':']))
+        }
+    }
+}
+
 fn about(fact: &Fact<'_>, control: &Control) -> String {
     let asked = &fact.asked;
     // The fact's name stands before, and whose it is is plain in a profile.
     let title = format!("{}: ", control.dialect().title);
     let said = asked.text.split_once(&title).map_or(asked.text, |(_, said)| said);
-    let text: String = plain(said).chars().take(LONGEST).collect();
-    let programs = if asked.programs == 1 { String::new() } else { format!("{} programs: ", asked.programs) };
-    format!("{text} ({programs}{})", plain(&asked.places.join(", ")))
+    format!("{} ({})", short(&plain(said)), counted(asked.programs, &asked.places))
 }
 
 /// Text that stays on its line, and is a comment.
@@ -187,7 +235,7 @@ fn lathe(survey: &Survey<'_>, side: Side) -> Option<(String, Option<(String, Str
 }
 
 /// The text with what every profile should say of its machine, as far as this one does not.
-fn with_machine(text: &str, said: &Profile, lathe: Option<String>) -> String {
+fn with_machine(text: &str, said: &Profile, lathe: Option<String>, point: Option<String>) -> String {
     let kind = lathe.as_deref().unwrap_or("machine = \"mill\" or \"lathe\"");
     let axes = match said.machine {
         Some(Machine::Lathe) => "axes = [\"X\", \"Z\"] # in the order of the control's axis numbers",
@@ -200,6 +248,7 @@ fn with_machine(text: &str, said: &Profile, lathe: Option<String>) -> String {
             said.units.is_none(),
             "units = \"inch\" or \"metric\" # what its programs are in where no code says so",
         ),
+        (point.is_some(), point.as_deref().unwrap_or_default()),
         (said.axes.is_none(), axes),
         (said.reserved.is_empty(), "reserved = [] # variables that programs must not be given"),
     ];

@@ -1,7 +1,8 @@
 //! A survey for programs. Its keys are a contract.
 
-use super::{AskedCode, AskedStart, Outcomes, Shape, Survey};
+use super::{AskedCode, AskedSetting, AskedStart, Outcomes, Shape, Survey};
 use crate::diag::{Code, Severity};
+use crate::dialect::Side;
 use crate::report::{Question, Questions};
 use serde::Serialize;
 
@@ -15,7 +16,10 @@ struct Report<'a> {
     taken: Option<String>,
     codes: &'a [AskedCode],
     start: &'a [AskedStart],
+    settings: Vec<Setting<'a>>,
     questions: Vec<Asked<'a>>,
+    /// What is asked once all of that is answered.
+    later: Vec<Asked<'a>>,
     now: Outcomes,
     #[serde(skip_serializing_if = "Option::is_none")]
     answered: Option<Outcomes>,
@@ -37,6 +41,14 @@ struct Asked<'a> {
 }
 
 #[derive(Serialize)]
+struct Setting<'a> {
+    /// The control whose profile states it.
+    machine: &'a str,
+    #[serde(flatten)]
+    asked: &'a AskedSetting,
+}
+
+#[derive(Serialize)]
 struct Stays<'a> {
     why: &'a str,
     programs: usize,
@@ -46,23 +58,32 @@ struct Stays<'a> {
 pub fn json(survey: &Survey<'_>) -> String {
     let stays = survey.stays.iter().map(|(why, programs)| Stays { why, programs: *programs }).collect();
     let [source, target] = survey.controls;
-    survey.with_questions(|questions| {
-        let report = Report {
-            from: source.name(),
-            to: survey.goes.then(|| target.name()),
-            library: &survey.shape,
-            taken: survey.taken.as_ref().map(ToString::to_string),
-            codes: &survey.codes,
-            start: &survey.start,
-            questions: all(questions),
-            now: survey.now,
-            answered: survey.answered,
-            stays,
-        };
-        // All keys are texts, and writing to memory cannot fail.
-        let mut text = serde_json::to_string_pretty(&report).unwrap_or_default();
-        text.push('\n');
-        text
+    let settings = survey.settings.iter().map(|asked| Setting {
+        machine: if asked.side == Side::Source { source } else { target }.name(),
+        asked,
+    });
+    let settings: Vec<Setting<'_>> = settings.collect();
+    survey.with_later(|later| {
+        survey.with_questions(|questions| {
+            let report = Report {
+                from: source.name(),
+                to: survey.goes.then(|| target.name()),
+                library: &survey.shape,
+                taken: survey.taken.as_ref().map(ToString::to_string),
+                codes: &survey.codes,
+                start: &survey.start,
+                settings,
+                questions: all(questions),
+                later: all(later),
+                now: survey.now,
+                answered: survey.answered,
+                stays,
+            };
+            // All keys are texts, and writing to memory cannot fail.
+            let mut text = serde_json::to_string_pretty(&report).unwrap_or_default();
+            text.push('\n');
+            text
+        })
     })
 }
 

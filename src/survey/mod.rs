@@ -8,6 +8,7 @@ mod beside;
 mod codes;
 mod filled;
 mod json;
+mod keys;
 mod shape;
 mod start;
 mod text;
@@ -15,6 +16,7 @@ mod text;
 pub use codes::AskedCode;
 pub use filled::{Unfit, filled};
 pub use json::json;
+pub use keys::AskedSetting;
 pub use shape::{Missing, Shape};
 pub use start::AskedStart;
 pub use text::text;
@@ -25,7 +27,7 @@ use crate::library::{
     Conversion, Input, Lock, Options, Outcome, ProgramReport, TakenAsLathe, Told, Understood, convert,
     outcome, understood,
 };
-use crate::report::{Part, Questions};
+use crate::report::{Fact, Part, Questions};
 use serde::Serialize;
 use shape::Places;
 use std::collections::BTreeMap;
@@ -47,12 +49,18 @@ pub struct Survey<'a> {
     pub codes: Vec<AskedCode>,
     /// What its programs take from the machine when they begin, and the profile does not say.
     pub start: Vec<AskedStart>,
+    /// Settings of the machines that programs wait for; those of most programs are first.
+    pub settings: Vec<AskedSetting>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
+    /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
+    then: Vec<Conversion>,
     /// What would become of it now.
     pub now: Outcomes,
     /// What would become of it once all that profiles can answer is answered; none if no target was named.
     pub answered: Option<Outcomes>,
+    /// Nothing is written.
+    folder: Told,
     /// Why programs stay refused then, with how many of them say so; the most frequent first.
     pub stays: Vec<(String, usize)>,
 }
@@ -76,6 +84,9 @@ impl Outcomes {
     }
 }
 
+/// How often what was asked is answered, to see what is asked then.
+const ROUNDS: usize = 4;
+
 /// Looks over the library.
 pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a Control>) -> Survey<'a> {
     let library = understood(inputs, source);
@@ -88,11 +99,12 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     };
     let now = Outcomes::of(&conversion.programs);
     let codes = codes::asked(inputs, &places, source, &conversion.programs);
+    let controls = [source, target.unwrap_or(source)];
+    let settings = keys::asked(&places, controls, &conversion.programs);
     for program in &mut conversion.programs {
         let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);
         program.diagnostics.retain(|finding| finding.asks.is_none() && !of_shape(finding.code));
     }
-    let controls = [source, target.unwrap_or(source)];
     let goes = target.is_some();
     let mut survey = Survey {
         inputs,
@@ -103,45 +115,88 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         shape,
         codes,
         start,
+        settings,
         rest: conversion,
+        then: Vec::new(),
         now,
         answered: None,
+        folder: Told::default(),
         stays: Vec::new(),
     };
     if target.is_some() {
-        let then = [true, false].map(|chosen| {
-            let [source, target] = answered::controls(&survey, chosen);
-            plain(inputs, &source, &target).programs
-        });
-        let best = then.iter().min_by_key(|programs| {
-            let Outcomes { refused, review, .. } = Outcomes::of(programs);
-            (refused, review)
-        });
-        survey.answered = best.map(|programs| Outcomes::of(programs));
-        survey.stays = best.map(|programs| reasons(programs)).unwrap_or_default();
+        let _ = (0..ROUNDS).find(|_| !survey.answer(&places));
     }
     survey
 }
 
 impl Survey<'_> {
+    /// Converts the library with all answered that was asked so far. True if that asks something new.
+    fn answer(&mut self, places: &Places<'_>) -> bool {
+        let then = [true, false].map(|chosen| {
+            let [source, target] = answered::controls(self, chosen);
+            plain(self.inputs, &source, &target)
+        });
+        let best = then.into_iter().min_by_key(|then| {
+            let Outcomes { refused, review, .. } = Outcomes::of(&then.programs);
+            (refused, review)
+        });
+        let Some(best) = best else { return false };
+        self.answered = Some(Outcomes::of(&best.programs));
+        self.stays = reasons(&best.programs);
+        let known = (self.settings.len(), self.asked_later());
+        let asked = keys::asked(places, self.controls, &best.programs);
+        let is_known =
+            |new: &AskedSetting| self.settings.iter().any(|old| old.side == new.side && old.name == new.name);
+        let new: Vec<AskedSetting> = asked.into_iter().filter(|new| !is_known(new)).collect();
+        self.settings.extend(new);
+        self.then.push(best);
+        known != (self.settings.len(), self.asked_later())
+    }
+
+    /// How many facts are asked of the machines once others are known.
+    fn asked_later(&self) -> usize {
+        self.with_later(|later| later.machines.iter().map(|machine| machine.facts.len()).sum())
+    }
+
     /// What it asks beside the codes, each thing once.
     pub fn with_questions<T>(&self, look: impl FnOnce(&Questions<'_>) -> T) -> T {
-        let part = Part {
+        look(&Questions::of(&[self.part(&self.rest)]))
+    }
+
+    /// What it will ask of the machines once all of that is answered, and does not ask now.
+    pub fn with_later<T>(&self, look: impl FnOnce(&Questions<'_>) -> T) -> T {
+        let mut later = Questions::of(&self.then.iter().map(|then| self.part(then)).collect::<Vec<_>>());
+        self.with_questions(|now| {
+            let known = |fact: &Fact<'_>| {
+                now.machines
+                    .iter()
+                    .flat_map(|machine| &machine.facts)
+                    .any(|of| of.settled_by == fact.settled_by)
+            };
+            later.machines.iter_mut().for_each(|machine| machine.facts.retain(|fact| !known(fact)));
+            later.machines.retain(|machine| !machine.facts.is_empty());
+        });
+        later.open.clear();
+        later.notes = 0;
+        look(&later)
+    }
+
+    fn part<'s>(&'s self, conversion: &'s Conversion) -> Part<'s> {
+        Part {
             from: self.controls[0].name(),
             to: self.controls[1].name(),
             controls: self.controls,
             inputs: self.inputs,
             named: &[],
-            conversion: &self.rest,
+            conversion,
             certificates: None,
             targets: &[],
             notes: &[],
             advice: None,
-            folder: &Told::default(),
+            folder: &self.folder,
             left_out: &[],
             verbose: false,
-        };
-        look(&Questions::of(&[part]))
+        }
     }
 }
 

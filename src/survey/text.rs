@@ -1,6 +1,7 @@
 //! A survey for people.
 
-use super::{AskedCode, AskedStart, Missing, Outcomes, Shape, Survey};
+use super::{AskedCode, AskedSetting, AskedStart, Missing, Outcomes, Shape, Survey};
+use crate::dialect::{Control, Settled, Side};
 use crate::library::TakenAsLathe;
 use crate::report::asked;
 use crate::text::shown;
@@ -21,6 +22,12 @@ pub fn text(survey: &Survey<'_>) -> String {
     }
     start(&mut out, &survey.start);
     out.push_str(&survey.with_questions(|questions| asked(questions, "--format json has")));
+    settings(&mut out, &survey.settings, survey.controls);
+    let later = survey.with_later(|questions| asked(questions, "--format json has"));
+    if !later.is_empty() {
+        out.push_str("\nOnce all of that is answered, this is asked too:\n");
+        out.push_str(&later);
+    }
     ends(&mut out, survey);
     out
 }
@@ -75,10 +82,10 @@ fn count(programs: usize) -> String {
 
 fn codes(out: &mut String, codes: &[AskedCode]) {
     out.push_str(
-        "\nCodes that the control's table does not know: what did the machine's builder make of them?\n",
+        "\nCodes that mean something on this machine alone, or that have no equal on the target: what is to become of them?\n",
     );
     out.push_str(
-        "The source's profile says it in [[site]]; the manual of the machine, not of the control, knows.\n",
+        "The source's profile says it in [[site]]; what a builder made of a code stands in the machine's own manual.\n",
     );
     for AskedCode { code, programs, frees, places, comment, block } in codes.iter().take(CODES) {
         let frees = if *frees > 0 { format!(", {frees} wait for nothing else") } else { String::new() };
@@ -113,6 +120,23 @@ fn start(out: &mut String, asked: &[AskedStart]) {
             count(*programs),
             shown(&places.join(", "))
         );
+    }
+}
+
+fn settings(out: &mut String, asked: &[AskedSetting], controls: [&Control; 2]) {
+    for (side, control) in [Side::Source, Side::Target].into_iter().zip(controls) {
+        let own: Vec<_> = asked.iter().filter(|asked| asked.side == side).collect();
+        if own.is_empty() {
+            continue;
+        }
+        let title = &control.dialect().title;
+        let _ = writeln!(out, "\nSettings of the {title} that programs wait for: its profile says them.");
+        for AskedSetting { section, name, values, meaning, programs, places, .. } in own {
+            let line = Settled::choice(name, values);
+            let (meaning, places) = (shown(meaning), shown(&places.join(", ")).into_owned());
+            let _ = writeln!(out, "  [{section}] {line}: {meaning}");
+            let _ = writeln!(out, "         {}: {places}", count(*programs));
+        }
     }
 }
 

@@ -147,3 +147,54 @@ fn what_programs_begin_in_is_asked_once() {
     assert_eq!(shop.run(line).code, 0);
     assert!(!shop.read("m.toml").contains("one of each"), "{}", shop.read("m.toml"));
 }
+
+/// A setting that a cycle takes its values from is a line of the profile, also if another one hides it at first.
+#[test]
+fn settings_that_cycles_wait_for_are_lines_of_the_profile() {
+    let text = "%\nO5\nG20 G18 G40 G99 G54\nT303\nG97 S900 M3\nG0 X1.1 Z.1\nG76 X0.85 Z-0.9 K0.07 D0.017 F0.125\nG0 Z.1\nM30\n%\n";
+    let shop = Shop::with(&[("lib/a.nc", text), ("h.toml", "dialect = \"haas\"\nmachine = \"lathe\"\n")]);
+    let line = "survey lib --machine h.toml --to fanuc --write h.toml";
+    let survey = json(&shop, &format!("{line} --format json"));
+    let settings = survey["settings"].as_array().unwrap();
+    let told: Vec<&str> = settings.iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert!(["86", "99"].iter().all(|name| told.contains(name)), "{survey}");
+    assert!(settings.iter().all(|one| one["programs"] == 1 && one["places"][0] == "a.nc:7"), "{survey}");
+    let asked = shop.read("h.toml");
+    for name in &told {
+        assert!(asked.contains(&format!("\n#? {name} = \"\" # ")), "{asked}");
+    }
+    assert_eq!((&survey["now"]["refused"], &survey["answered"]["refused"]), (&1.into(), &0.into()));
+    let answered = asked.replace("#? 86 = \"\"", "86 = \"0.001\"").replace("#? 99 = \"\"", "99 = \"0.002\"");
+    shop.write("h.toml", answered.replace("#? 95 = \"\"", "95 = \"1\"").as_bytes());
+    assert_eq!(json(&shop, &format!("{line} --format json"))["now"]["refused"], 0);
+}
+
+/// What a number without a decimal point counts is a key of its own, not something to confirm.
+#[test]
+fn the_decimal_point_is_a_line_of_the_profile() {
+    let shop = Shop::with(&[("lib/a.nc", "O1\nG21 G90 G17 G54 G94\nG0 X10\nM30\n")]);
+    assert_eq!(shop.run("survey lib --from fanuc --to haas --write m.toml").code, 0);
+    let asked = shop.read("m.toml");
+    assert!(asked.contains("\n#? decimal_point = \"calculator\" or \"increments\" # "), "{asked}");
+    assert!(!asked.contains("\"numbers\""), "{asked}");
+    shop.write("m.toml", asked.replace("#? decimal_point = \"calculator\" or", "decimal_point =").as_bytes());
+    assert_eq!(shop.run("survey lib --from fanuc --to haas --write m.toml").code, 0);
+    assert!(!shop.read("m.toml").contains("#? decimal_point"));
+}
+
+/// Of a cycle that only this family of controls has, the profile says what becomes of it elsewhere.
+#[test]
+fn a_cycle_of_the_maker_alone_may_be_left_out() {
+    let shop = Shop::with(&[
+        ("lib/a.nc", "%\nO1\nG20 G90 G17 G54 G94\nG0 X1. Y1.\nG47 P0 (PART 7)\nG0 X2.\nM30\n%\n"),
+        (
+            "h.toml",
+            "dialect = \"haas\"\n[[site]]\ncode = \"G47\"\ntext = \"engraves\"\nwords = { P = \"kind\" }\ndo = \"omit\"\n",
+        ),
+    ]);
+    let run = shop.run("convert lib/a.nc --machine h.toml --to fanuc --out out");
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    let made = shop.read("out/a.nc");
+    assert!(!made.contains("G47") && made.contains("X2."), "{made}");
+    assert!(run.out.contains("engraves") || run.err.contains("engraves"), "{}{}", run.out, run.err);
+}

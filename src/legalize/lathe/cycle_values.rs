@@ -6,6 +6,7 @@ use crate::assume::Predicate;
 use crate::canon::Role;
 use crate::dialect::{Control, Setting};
 use crate::ir::{Expr, Nc, NcItem, Stmt};
+use std::sync::Arc;
 
 /// What a cycle takes besides its own words.
 pub(super) type Values = Vec<(Role, Expr)>;
@@ -28,6 +29,15 @@ pub(super) struct Given {
 /// A setting that the target must have: what, what to do, and as a value.
 pub(super) type Need = (String, String, Predicate);
 
+/// Why a cycle is not told whole: what, what to do, and the setting that the source's profile does not state.
+pub(super) struct Untold(pub String, pub String, pub Option<Arc<str>>);
+
+impl From<(String, String)> for Untold {
+    fn from((what, help): (String, String)) -> Self {
+        Self(what, help, None)
+    }
+}
+
 /// The values that a block's own words give.
 pub(super) fn values_of(nc: &Nc, kind: &Kind) -> Values {
     let words = nc.items.iter().filter_map(|item| match item {
@@ -49,11 +59,11 @@ pub(super) fn told(
     kind: &'static Kind,
     before: Option<Values>,
     source: &Control,
-) -> Result<Values, (String, String)> {
+) -> Result<Values, Untold> {
     let mut values = given(stmt, kind, before, source)?;
     if !thread_form::apart(&mut values) {
         let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
-        return Err((what.into(), "write the number as it is: P021060".into()));
+        return Err((what.to_owned(), "write the number as it is: P021060".to_owned()).into());
     }
     usual(&mut values);
     Ok(values)
@@ -105,7 +115,7 @@ fn given(
     kind: &'static Kind,
     before: Option<Values>,
     source: &Control,
-) -> Result<Values, (String, String)> {
+) -> Result<Values, Untold> {
     let mut values = before.unwrap_or_default();
     let own = stmt.kind.nc().map(|nc| values_of(nc, kind)).unwrap_or_default();
     replace(&mut values, own);
@@ -124,7 +134,7 @@ fn given(
         .iter()
         .find(|role| needs(source, kind, **role) && values.iter().all(|(found, _)| found != *role));
     match missing {
-        Some(role) => Err(not_set(source, kind, *role)),
+        Some(role) => Err(not_set(source, kind, *role).into()),
         None => Ok(values),
     }
 }
@@ -149,15 +159,14 @@ fn not_set(source: &Control, kind: &Kind, role: Role) -> (String, String) {
     }
 }
 
-fn of_setting(control: &Control, name: &str, role: Role) -> (String, String) {
+fn of_setting(control: &Control, name: &str, role: Role) -> Untold {
     let (kind, number) = setting_named(name);
     let title = &control.dialect().title;
     let what =
         format!("{kind} {number} of the {title} says {}, and its profile does not give it", meaning(role));
-    (
-        what,
-        format!("look it up on the machine, and write in its profile, under [{kind}s]: {number} = \"...\""),
-    )
+    let help =
+        format!("look it up on the machine, and write in its profile, under [{kind}s]: {number} = \"...\"");
+    Untold(what, help, Some(name.into()))
 }
 
 /// A setting as people name it, `setting` or `parameter`, and its number.

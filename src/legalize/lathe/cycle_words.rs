@@ -5,10 +5,10 @@
 //! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
 //! otherwise.
 
-use super::cycle_values::{Given, Need, Values, replace, resolve, told, values_of};
+use super::cycle_values::{Given, Need, Untold, Values, replace, resolve, told, values_of};
 use super::place::Place;
 use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
-use super::setting_values::{Found, tell};
+use super::setting_values::{Found, So, tell};
 use super::settings::{Kind, setting, takes};
 use super::straight::entered_straight;
 use super::thread_passes::{all, finishes, says_how};
@@ -198,10 +198,10 @@ impl Run<'_> {
             NcItem::Code(..) => true,
         };
         if stmt.site.skip.is_some() {
-            self.found.push((stmt.site.span, SKIPPED.into(), String::new(), None));
+            self.refuse(stmt.site.span, SKIPPED, "");
         }
         if rest.iter().any(moves) {
-            self.found.push((stmt.site.span, MOVES.into(), "give the move a block of its own".into(), None));
+            self.refuse(stmt.site.span, MOVES, "give the move a block of its own");
         }
         match self.set.iter_mut().find(|set| set.setup == kind.setup) {
             Some(set) => {
@@ -245,8 +245,8 @@ impl Run<'_> {
         let before = set.map(|set| set.values.clone());
         let all = match told(&stmt, kind, before, self.source) {
             Ok(values) => values,
-            Err((what, help)) => {
-                self.refuse(span, &what, &help);
+            Err(Untold(what, help, lacks)) => {
+                self.found.push((span, what, help, lacks.map_or(So::Refused, So::Lacks)));
                 return vec![stmt];
             }
         };
@@ -278,7 +278,8 @@ impl Run<'_> {
                 "write the program in the unit that the profile of the machine gives",
             );
         }
-        self.found.extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, Some(needs))));
+        self.found
+            .extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, So::Supposed(needs))));
         // No source says by which way a pass in moves would run out.
         let runs_out =
             all.iter().any(|(role, value)| *role == Role::ThreadRunOut && value.constant() != Some(0.0));
@@ -308,8 +309,8 @@ impl Run<'_> {
     /// True for a setting that is known to be another one on the target, or that a cycle before needs otherwise.
     fn is_set_otherwise(&self, (.., needs): &Need) -> bool {
         let Predicate::Setting(name, value) = needs else { return false };
-        let before = |(.., needs): &(Span, String, String, Option<Predicate>)| match needs {
-            Some(Predicate::Setting(other, before)) => other == name && before != value,
+        let before = |(.., so): &(Span, String, String, So)| match so {
+            So::Supposed(Predicate::Setting(other, before)) => other == name && before != value,
             _ => false,
         };
         self.target.setting(name).is_some() || self.found.iter().any(before)
@@ -339,7 +340,7 @@ impl Run<'_> {
     }
 
     fn refuse(&mut self, span: Span, what: &str, help: &str) {
-        self.found.push((span, what.into(), help.into(), None));
+        self.found.push((span, what.into(), help.into(), So::Refused));
     }
 }
 

@@ -13,8 +13,18 @@ use crate::text::Span;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What is found: where, what, what to do, and what the conversion supposes; of a refusal nothing.
-pub(super) type Found = Vec<(Span, String, String, Option<Predicate>)>;
+/// What is found: where, what, what to do, and what comes of it.
+pub(super) type Found = Vec<(Span, String, String, So)>;
+
+/// What comes of something that is found.
+pub(super) enum So {
+    /// The cycle is refused.
+    Refused,
+    /// It is refused, because the source's profile does not state this setting.
+    Lacks(Arc<str>),
+    /// The conversion supposes something.
+    Supposed(Predicate),
+}
 
 /// Tells what was found in the programs of a library, each with its index.
 pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Context<'_>) {
@@ -22,8 +32,8 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
         [Feature::Call, Feature::Modal, Feature::Chain].into_iter().any(|way| context.features.has(way));
     let mut values: BTreeMap<Arc<str>, Vec<(f64, usize)>> = BTreeMap::new();
     for (index, found) in found {
-        for (span, mut what, mut help, mut needs) in found {
-            if let Some(Predicate::Setting(name, value)) = &needs {
+        for (span, mut what, mut help, mut so) in found {
+            if let So::Supposed(Predicate::Setting(name, value)) = &so {
                 let known = values.entry(name.clone()).or_default();
                 let other = |(first, _): &&(f64, usize)| first.to_bits() != value.to_bits();
                 // A value that this program itself needs otherwise counts before one of another.
@@ -36,16 +46,17 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
                     let is_own = program == index;
                     (what, help) = two_values((name, *value), (first, (!is_own).then_some(program)), module);
                     if is_own || calls {
-                        needs = None;
+                        so = So::Refused;
                     }
                 }
             }
-            let code = if needs.is_some() { Code::Conditional } else { Code::NoEquivalent };
+            let code = if matches!(so, So::Supposed(_)) { Code::Conditional } else { Code::NoEquivalent };
             let finding = Diagnostic::new(code, span, what.as_str());
             let finding = if help.is_empty() { finding } else { finding.with_help(help) };
-            match needs {
-                Some(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
-                None => context.add(index, finding),
+            match so {
+                So::Supposed(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
+                So::Lacks(setting) => context.add(index, finding.lacking(setting)),
+                So::Refused => context.add(index, finding),
             }
         }
     }

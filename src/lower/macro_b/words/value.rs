@@ -89,7 +89,8 @@ impl<'a> Lowering<'a> {
         if self.control.machine() == Machine::Lathe && !by_minute && (open || counts == BareLength::Unknown) {
             let message = "no source says what a feed of this lathe counts without a decimal point, unless a code before says that \
                            it is a feed a minute: write the point, or say 'bare_feed' under [settings] of the machine's profile";
-            self.findings.not_understood(span, message);
+            let finding = Diagnostic::new(Code::NotUnderstood, span, message);
+            self.findings.add(finding.lacking("setting.bare_feed"));
             return Expr::Number(number);
         }
         if open && counts != BareLength::Unknown {

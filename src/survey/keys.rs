@@ -1,0 +1,101 @@
+//! Settings that refusals of a survey wait for, or that the target must have while programs run.
+
+use super::shape::{NAMED, Places};
+use crate::assume::Predicate;
+use crate::diag::Diagnostic;
+use crate::dialect::{Control, Setting, Side};
+use crate::library::ProgramReport;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// A setting that a machine profile would have to state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AskedSetting {
+    /// The machine.
+    #[serde(skip)]
+    pub side: Side,
+    /// The section of its profile: `settings`.
+    pub section: &'static str,
+    /// Its name there: `73`.
+    pub name: String,
+    /// The values that it may have; empty for any.
+    pub values: Vec<String>,
+    /// What the machine has if nobody changed it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub default: Option<String>,
+    /// What it is.
+    pub meaning: String,
+    /// How many programs wait for it.
+    pub programs: usize,
+    /// The first places, as `file:line`.
+    pub places: Vec<String>,
+}
+
+impl AskedSetting {
+    /// An answer that a machine might give: what it has if nobody changed it, or the first value.
+    pub fn usual(&self) -> String {
+        let first = self.default.as_ref().or_else(|| self.values.first());
+        first.cloned().unwrap_or_else(|| "1".into())
+    }
+}
+
+/// The settings that findings name; those that most programs wait for are first.
+pub(super) fn asked(
+    places: &Places<'_>,
+    controls: [&Control; 2],
+    programs: &[ProgramReport],
+) -> Vec<AskedSetting> {
+    let mut found: BTreeMap<(Side, Arc<str>), (BTreeSet<usize>, BTreeSet<u64>, Vec<String>)> =
+        BTreeMap::new();
+    for (at, program) in programs.iter().enumerate() {
+        for finding in &program.diagnostics {
+            let Some((side, name, value)) = named(finding) else { continue };
+            let (all, values, named) = found.entry((side, name)).or_default();
+            all.insert(at);
+            values.extend(value.map(f64::to_bits));
+            let place = places.at(program.file, finding.span);
+            if named.len() < NAMED && !named.contains(&place) {
+                named.push(place);
+            }
+        }
+    }
+    let asked = found.into_iter().map(|((side, name), (all, values, places))| {
+        let control = match side {
+            Side::Source => controls[0],
+            Side::Target => controls[1],
+        };
+        let row = control.setting_row(&name);
+        let (section, short) = match name.strip_prefix("parameter.") {
+            Some(number) => ("parameters", number),
+            None => ("settings", name.trim_start_matches("setting.")),
+        };
+        let whole = row.map_or(1.0, Setting::whole);
+        let needed = values.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
+        let needed: Vec<String> = needed.map(|value| value.to_string()).collect();
+        AskedSetting {
+            side,
+            section,
+            name: short.to_owned(),
+            values: if needed.is_empty() { row.map_or(Vec::new(), |row| row.values.clone()) } else { needed },
+            default: row.and_then(|row| row.default.clone()).filter(|_| side == Side::Source),
+            meaning: row.map_or(String::new(), |row| row.meaning.clone()),
+            programs: all.len(),
+            places,
+        }
+    });
+    let mut asked: Vec<AskedSetting> = asked.collect();
+    asked.sort_by_key(|setting| std::cmp::Reverse(setting.programs));
+    asked
+}
+
+/// The setting that a finding waits for: of which machine, and the value that it must have, if it must have one.
+fn named(finding: &Diagnostic) -> Option<(Side, Arc<str>, Option<f64>)> {
+    if let Some(name) = &finding.setting {
+        return Some((Side::Source, name.clone(), None));
+    }
+    match finding.assumes.as_deref()? {
+        Predicate::Setting(name, value) => Some((Side::Target, name.clone(), Some(*value))),
+        _ => None,
+    }
+}
