@@ -1,6 +1,6 @@
 //! The words for facts that no manual confirms.
 
-use super::{Control, Mark, Question, Setting};
+use super::{Control, Mark, Question, Setting, matters};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -39,6 +39,8 @@ impl Control {
         let title = &self.dialect().title;
         let asked = Question::of_fact(fact).map(|question| self.taken(question));
         let note = note.filter(|note| Question::of_fact(fact).is_none_or(|asked| asked.meaning() != *note));
+        // Of a matter that no table asks about it is what the emulated control does.
+        let note = note.or_else(|| matters::meaning(fact));
         let said: Vec<&str> = asked.as_deref().into_iter().chain(note).collect();
         let code = self.told_as(fact);
         let said = match said.as_slice() {
