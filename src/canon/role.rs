@@ -60,7 +60,8 @@ super::vocabulary! {
         Speed = "speed",
         /// Tool number.
         Tool = "tool",
-        /// Turret station and tool offset in one number: 100 times the station, plus the offset.
+        /// Turret station and tool offset in one number: 100 times the station, plus the offset. An offset over 99 stands in
+        /// 1000000 and 1000 times the station, plus the offset.
         Turret = "tool.turret",
         /// Number of the tool length offset.
         LengthOffset = "offset.length",

@@ -43,6 +43,7 @@ mod stated;
 mod table;
 #[cfg(test)]
 mod tests;
+mod turret_word;
 mod unconfirmed;
 mod variables;
 
@@ -71,5 +72,6 @@ pub use rows::*;
 pub use site::{SiteCode, Without};
 pub use spelling::{Beside, CodeHead, measures};
 pub use start::StartMode;
+pub use turret_word::{TurretWord, apart as turret_parts};
 pub use unconfirmed::{Settled, Side, to_confirm};
 pub use variables::{InUse, SameCells, VariableClass};

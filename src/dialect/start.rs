@@ -1,7 +1,7 @@
 //! What is in force on a machine when a program begins, as its profile says.
 
 use super::profile::Units;
-use super::{CodeMeaning, Control};
+use super::{CodeMeaning, Control, Machine};
 use crate::canon::{Group, Op, Role};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -93,10 +93,20 @@ impl Control {
         if may && row.modal != Some(false) {
             return Ok(mode);
         }
-        Err((
-            format!("'{word}' is nothing that a program begins in"),
+        let mut help =
             "name the unit, absolute or incremental, the plane, the feed mode, G0 or G1, and the work offset"
-                .into(),
-        ))
+                .to_owned();
+        // Another G code system has these numbers for the feed.
+        if self.machine() == Machine::Lathe
+            && mode.op.group() == Group::ReturnPlane
+            && let Some(by_turn) = self.code_for(Op::FeedPerTurn, &BTreeMap::new())
+            && let Some(by_minute) = self.code_for(Op::FeedPerMinute, &BTreeMap::new())
+        {
+            let (turn, minute) = (&by_turn.code, &by_minute.code);
+            help = format!(
+                "in the G code system of this machine {turn} is feed a turn, and {minute} feed a minute; {help}"
+            );
+        }
+        Err((format!("'{word}' is nothing that a program begins in"), help))
     }
 }

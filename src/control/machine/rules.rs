@@ -157,7 +157,7 @@ pub struct Rules {
     /// allowance for that (K5, K9 of docs/lathe.md).
     pub roughing_along: Fact<bool>,
     /// A peck of a lathe's drilling cycle goes back to its retract plane, or by the clearance; none where nobody says it (Q7).
-    pub pecks_to_plane: Fact<Option<bool>>,
+    pub pecks_to_plane: Fact<bool>,
     /// A face is milled with C in words of X as a diameter and C as a length; else of X as a radius and Y; none if the table does not say it (V1).
     pub face_by_c: Fact<Option<bool>>,
     /// A thread that is cut on both flanks begins with the leading one; none if the table does not know (P6).
@@ -291,8 +291,8 @@ impl Rules {
             pecks_to_plane: fact(
                 control,
                 Question::HolePecks,
-                |value| ["plane", "clearance"].contains(&value).then_some(Some(value == "plane")),
-                None,
+                |value| ["plane", "clearance"].contains(&value).then_some(value == "plane"),
+                true,
             ),
             face_by_c: fact(
                 control,

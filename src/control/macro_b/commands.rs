@@ -172,6 +172,7 @@ impl<'c> Runner<'c> {
                         Role::WorkOffset | Role::OffsetRow => {
                             self.session.control.canonical(row, role, value)
                         }
+                        Role::Turret => self.session.control.turret_word().read(value),
                         _ => value * self.session.machine.scale_of(role),
                     };
                     if let (None, Some(op)) =

@@ -8,7 +8,7 @@ use super::meaning;
 use crate::control::library::Library;
 use crate::control::outcome::Stop;
 use crate::diag::{Code, Severity};
-use crate::dialect::{Control, Question, Row};
+use crate::dialect::{Control, Machine, Question, Row};
 use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
 use crate::text::{Span, decode};
 use std::collections::HashMap;
@@ -238,8 +238,11 @@ impl Compiler<'_> {
                     return;
                 };
                 let mut expressions = Expressions::new(control, &mut gather.facts);
-                let word = expressions.word(word.letter, word.comma, value);
-                gather.words.push(word);
+                let spoken = expressions.word(word.letter, word.comma, value);
+                gather.words.push(spoken);
+                if let Some(what) = self.turret_fault(word, value) {
+                    gather.steps.push(Step::Unreadable(what.into()));
+                }
             }
             ItemKind::Assign { target, value, .. } => {
                 let mut expressions = Expressions::new(control, &mut gather.facts);
@@ -309,6 +312,15 @@ impl Compiler<'_> {
             }
             _ => gather.steps.push(Step::Unreadable("a statement that this control does not have".into())),
         }
+    }
+
+    /// A T word of a lathe with digits of which nobody says whose they are.
+    fn turret_fault(&self, word: &syntax::Word, value: &syntax::Expr) -> Option<&'static str> {
+        let syntax::ExprKind::Number(number) = &value.kind else { return None };
+        if word.letter != 'T' || word.comma || self.control.machine() != Machine::Lathe {
+            return None;
+        }
+        self.control.turret_word().fault(number.digits, number.value)
     }
 
     fn conditional(

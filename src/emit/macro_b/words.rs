@@ -224,10 +224,18 @@ impl<'p> Emitter<'p> {
 
     fn literal(&mut self, role: Role, value: f64) {
         match role {
+            Role::Turret => match self.control.turret_word().written(value) {
+                Some(digits) => self.out.push_str(&digits),
+                None => {
+                    let offset = crate::dialect::turret_parts(value).1;
+                    self.out.unmapped(format_args!(
+                        "the offset {offset} in a T word, whose digits do not hold it"
+                    ));
+                }
+            },
             // Two digits for each of what stands in one number, as people write it.
-            Role::Turret | Role::ThreadForm if value.fract() == 0.0 && value >= 100.0 => {
-                let digits = if role == Role::Turret { 4 } else { 6 };
-                self.out.push_str(&format!("{value:0digits$}"));
+            Role::ThreadForm if value.fract() == 0.0 && value >= 100.0 => {
+                self.out.push_str(&format!("{value:06}"));
             }
             _ if role.is_scale() => self.scale(value),
             _ if has_point(role) => self.out.number(value, true),

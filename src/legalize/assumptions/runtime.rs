@@ -28,10 +28,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let cycles = context.features.any_op(Op::is_cycle);
     let starts =
         context.source.is(Question::CycleStartsSpindle) && !context.target.is(Question::CycleStartsSpindle);
+    // Of a lathe's holes only taps are known to: the others may be those of a live tool, or of none that turns.
+    let (starts, taps_start) = (starts && context.source.machine() == Machine::Mill, starts);
     // Rigid taps by a code turn the spindle themselves too.
     let taps = context.features.op(Op::RigidTaps)
         && context.target.machine() == Machine::Mill
-        && !context.target.is(Question::CycleStartsSpindle);
+        && !context.target.is(Question::CycleStartsSpindle)
+        || taps_start;
     let standing = Standing::of(context.source);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     let stood = (cycles && (starts || taps)).then(|| OverCalls::of(module, &standing));

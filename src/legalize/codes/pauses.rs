@@ -5,7 +5,7 @@
 //! change is left to the machine, unless its table says nothing of it and something is known to run. What a stop ends
 //! matters after it where the program cuts before it says itself what runs: then the facts that no source confirms are
 //! named.
-//! What a message leaves running, and a stop that is written for it ends, is started again after it where it is known.
+//! What a message or a stop leaves running, and the target's stop ends, is started again after it where it is known.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
 mod after;
@@ -339,7 +339,13 @@ impl Place<'_> {
                     self.tell(pause, there, span, context);
                 }
             }
-            let sure = pause == Pause::Message && there.known && there.answer == Some(true);
+            // A stop that may be switched off ends nothing then; one of which nobody knows what it ends may have ended it.
+            let asks = match pause {
+                Pause::Message => true,
+                Pause::Stop => !optional && here.known && here.answer == Some(false),
+                _ => false,
+            };
+            let sure = asks && there.known && there.answer == Some(true);
             let again = self.state.op(ends(running).0).filter(|op| starts(running).contains(op));
             let known = sure && here.answer != Some(true) && !self.lost[running as usize];
             match again.filter(|_| known) {

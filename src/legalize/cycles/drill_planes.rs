@@ -6,7 +6,7 @@
 
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Row, Side};
+use crate::dialect::{Behaviour, Control, Machine, Question, Row, Side};
 use crate::ir::{Module, Nc};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
@@ -14,10 +14,15 @@ use crate::text::Span;
 
 /// True if the library drills and selects planes, and a table says something of it.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let asked = |control: &Control| control.behaviour(Question::CyclePlane).is_some();
+    let asked = |control: &Control| along_plane(control).is_some();
     (asked(context.source) || asked(context.target))
         && features.any_op(Op::is_cycle)
         && features.any_op(|op| matches!(op, Op::PlaneZx | Op::PlaneYz))
+}
+
+/// What a control says of the planes of its holes; a lathe's code says the axis, whatever the plane is (docs/lathe.md Q5, Q6, Q9).
+fn along_plane(control: &Control) -> Option<&Behaviour> {
+    control.behaviour(Question::CyclePlane).filter(|_| control.machine() == Machine::Mill)
 }
 
 /// Reports cycles in other planes.
@@ -39,9 +44,7 @@ fn drills(nc: &Nc, after: &Modal) -> bool {
 
 fn report(context: &mut Context<'_>, index: usize, span: Span, known: bool) {
     for (control, side) in [(context.source, Side::Source), (context.target, Side::Target)] {
-        let Some(row) = control.behaviour(Question::CyclePlane).filter(|row| row.value != "any") else {
-            continue;
-        };
+        let Some(row) = along_plane(control).filter(|row| row.value != "any") else { continue };
         if !known {
             let what = format!(
                 "the plane of this drilling cycle depends on the path: make sure that it is G17, which the {side}'s cycles need"

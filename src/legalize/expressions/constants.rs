@@ -4,6 +4,7 @@
 //! twice more than the constant itself; where the result is another number of binary64, that is a review diagnostic.
 
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Machine;
 use crate::ir::{BinOp, Expr, Program};
 use crate::legalize::features::is_long;
 use crate::legalize::{Context, Position, rewrite_program};
@@ -12,12 +13,22 @@ use crate::legalize::{Context, Position, rewrite_program};
 pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let Some(most) = context.target.numbers().digits.filter(|most| *most >= 8) else { return false };
     let mut changed = false;
-    let mut found = Vec::new();
+    let (mut found, mut short) = (Vec::new(), Vec::new());
+    let lathe = context.target.machine() == Machine::Lathe;
     rewrite_program(program, |e| matches!(e, Expr::Number(_)), &mut |e, position, rewriter| match e {
         Expr::Number(value)
             if is_long(value) && digits(value) > most && !matches!(position, Position::Argument(_)) =>
         {
             changed = true;
+            // A place of a lathe may be one of a contour, which has only moves; and no cut is that fine.
+            if let Position::Word(role) = position
+                && lathe
+                && role.is_length()
+                && let Some(made) = shortened(value, most)
+            {
+                short.push((rewriter.span, value, made));
+                return Expr::Number(made);
+            }
             let (split, made) = split(value);
             if made != value {
                 found.push((rewriter.span, value, made));
@@ -27,6 +38,10 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         }
         other => other,
     });
+    for (span, value, made) in short {
+        let what = format!("the target takes {most} digits: {value} becomes {made}");
+        context.add(index, Diagnostic::new(Code::NearlyEqual, span, what));
+    }
     for (span, value, made) in found {
         let what = format!("the target takes {most} digits: {value} becomes a sum that gives {made}");
         context.add(index, Diagnostic::new(Code::NearlyEqual, span, what));
@@ -37,6 +52,14 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
 /// Digits that the constant is written with, the zero before the point included.
 fn digits(value: f64) -> u32 {
     format!("{}", value.abs()).bytes().filter(u8::is_ascii_digit).count() as u32
+}
+
+/// The number rounded to so many digits; none where less than five are left behind the point.
+fn shortened(value: f64, most: u32) -> Option<f64> {
+    let whole = value.abs().max(1.0).log10().floor() as u32 + 1;
+    let places = most.checked_sub(whole).filter(|places| *places >= 5)?;
+    let scale = 10f64.powi(places as i32);
+    Some((value * scale).round() / scale)
 }
 
 /// The constant as a sum of two of eight digits, scaled; and what it evaluates to.
@@ -82,6 +105,13 @@ mod tests {
             let (_, made) = split(value);
             assert!((made - value).abs() <= value.abs() * 4.0 * f64::EPSILON, "{value} {made}");
         }
+    }
+
+    #[test]
+    fn places_lose_what_the_target_has_no_digit_for() {
+        assert_eq!(shortened(0.42928932, 8), Some(0.4292893));
+        assert_eq!(shortened(-12.42928937, 8), Some(-12.429289));
+        assert_eq!(shortened(1234.56789, 8), None);
     }
 
     #[test]

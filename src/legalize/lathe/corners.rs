@@ -9,7 +9,7 @@ use super::place::Place;
 use super::straight::{entered_straight, goes_on_to};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
@@ -30,7 +30,10 @@ pub fn concerns(features: &Features) -> bool {
 /// Takes the signs away; true where there were any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
-    let letters = context.source.behaviour(Question::CornerLetters).is_some_and(|row| row.value == "letters");
+    let by_letters = |control: &Control| {
+        control.behaviour(Question::CornerLetters).is_some_and(|row| row.value == "letters")
+    };
+    let (letters, same) = (by_letters(context.source), by_letters(context.target));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
         for (at, place, known) in corners(program) {
@@ -39,6 +42,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 continue;
             };
             let span = stmt.site.span;
+            // A computed size has the sign that it has, and the target reads it by the same letters.
+            if letters && same && stmt.kind.nc().is_some_and(is_computed) {
+                continue;
+            }
             let made =
                 stmt.kind.nc().ok_or_else(String::new).and_then(|nc| plain(nc, next, (known, letters)));
             match made {
@@ -62,6 +69,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         }
     }
     changed
+}
+
+/// True for a block with one corner whose size is computed.
+fn is_computed(nc: &Nc) -> bool {
+    let mut sizes = WORDS.iter().filter_map(|(role, _)| nc.word(*role));
+    matches!((sizes.next(), sizes.next()), (Some(size), None) if size.constant().is_none())
 }
 
 /// The statements with such a word, and where the tool stands before each.

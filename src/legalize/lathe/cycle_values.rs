@@ -222,10 +222,12 @@ fn in_setting(
 ) -> Result<Option<Need>, (String, String)> {
     let by = setting(target, kind.cycle, role);
     if role == Role::ThreadFinishes && by.is_none() {
-        let what = "the number of finishing passes of this thread is computed, or none";
+        let none = "this thread has 0 finishing passes by the first two digits of its P, and no source says what that is: 1 to 99 are read";
+        let computed = "the number of finishing passes of this thread is computed";
         return match value.constant() {
             Some(1.0) => Ok(None),
-            _ => Err((what.into(), "write it as a number".into())),
+            Some(_) => Err((none.into(), "write how many passes there are: P011060 for one".into())),
+            None => Err((computed.into(), "write it as a number".into())),
         };
     }
     let Some((name, stated)) = by else {

@@ -16,7 +16,7 @@ use super::threads::{beyond, flanks_are_open};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::dialect::{Control, Question, Units};
-use crate::ir::{Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
@@ -116,7 +116,8 @@ impl Set {
 
     /// True where a value may not be any more what it was when it was set.
     fn is_stale(&self) -> bool {
-        self.passed && self.values.iter().any(|(_, value)| value.constant().is_none())
+        let computed = |value: &Expr| value.constant().is_none() && !matches!(value, Expr::Increments(_));
+        self.passed && self.values.iter().any(|(_, value)| computed(value))
     }
 }
 

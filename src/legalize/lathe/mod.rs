@@ -1,6 +1,7 @@
 //! Lathes: cycles in one block or two, contours, holes, increments, machine coordinates, units, and programs of the other kind of machine.
 
 mod contour_starts;
+pub mod contour_types;
 pub mod contours;
 pub mod corners;
 pub mod counts;
@@ -25,6 +26,7 @@ pub mod straight;
 pub mod tap_feeds;
 pub mod thread_form;
 pub mod thread_passes;
+pub mod thread_ways;
 pub mod threads;
 pub mod written_corners;
 pub mod x_counts;

@@ -166,6 +166,7 @@ fn is_of_thread(item: &NcItem) -> bool {
                 | Role::ThreadFirst
                 | Role::ThreadAngle
                 | Role::ThreadInfeed
+                | Role::ThreadRunOut
         ),
         NcItem::Code(..) => false,
     }

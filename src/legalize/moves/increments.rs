@@ -7,7 +7,7 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{BareLength, Control, Units};
+use crate::dialect::{BareLength, Control, Machine, Units};
 use crate::ir::{Block, BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
 use crate::legalize::moves::units::exit::ExitUnit;
 use crate::legalize::{Context, Modal, ModalFacts, Setting};
@@ -229,10 +229,20 @@ pub(in crate::legalize) fn units_named(program: &Program) -> impl Iterator<Item 
 /// Converts a word where it must be; false where it must be and cannot.
 fn word(value: &mut Expr, role: Role, units: Option<Units>, source: &Control, target: &Control) -> bool {
     let bare = if role == Role::Feed { target.bare_feed() } else { target.bare_length() };
-    if bare == BareLength::Increments && same_increments(source, target) && role != Role::Feed {
+    let same = bare == BareLength::Increments && same_increments(source, target) && role != Role::Feed;
+    if same && (units.is_none() || keeps_form(role, source, target)) {
         return true;
     }
     convert(value, role.is_angle(), units, source)
+}
+
+/// True where a number without a point stays as it is. Where it counts alike on the target as far as is known, but nobody is sure
+/// of it, and in a cycle of a lathe, whose values are worked with, it gets its point.
+fn keeps_form(role: Role, source: &Control, target: &Control) -> bool {
+    let sure = target.profile().decimal_point.is_some() || target.numbers().origin.is_settled();
+    let alike = source.name() == target.name();
+    let worked = target.machine() == Machine::Lathe && !((role.is_axis() || role.is_step()) && alike);
+    (sure || alike) && !worked
 }
 
 /// True where a number without a point counts the same after this argument's letter on both controls.

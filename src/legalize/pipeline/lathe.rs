@@ -5,8 +5,9 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes, interpolations,
-    lone_steps, rapid_in_force, roughing, run_outs, steps, tap_feeds, threads, written_corners, x_counts,
+    contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
+    interpolations, lone_steps, rapid_in_force, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
+    written_corners, x_counts,
 };
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
@@ -71,6 +72,12 @@ pub(super) const LATHE: &[Pass] = &[
     Pass::edits("holes", "drilling cycles of a lathe get the target's planes and codes", holes::run)
         .when(holes::concerns)
         .needs(&["steps", "lathe-lengths", "hole-returns", "tap-feeds"]),
+    Pass::reports(
+        "thread-ways",
+        "tells of threads that may take the P of a code before them",
+        thread_ways::run,
+    )
+    .when(thread_ways::concerns),
     Pass::reports("thread-ends", "checks by what single passes of threads run out", threads::run_outs)
         .when(|c, _| c.op(Op::ThreadingPass)),
     Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
@@ -108,6 +115,13 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(rapid_in_force::concerns)
     .needs(&["home", "lathe-cycles"]),
+    Pass::rewrites(
+        "contour-types",
+        "contours with valleys are told to the target by a word, or by their first block",
+        contour_types::run,
+    )
+    .when(contour_types::concerns)
+    .needs(&["lathe-cycles"]),
     Pass::reports("roughing", "checks that the roughing of contours ends alike", roughing::run)
         .when(roughing::concerns),
     Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)

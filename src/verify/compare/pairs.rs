@@ -11,7 +11,7 @@ use super::letters;
 use super::loose::{Found, Order, farthest};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
-use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
+use super::pauses::{Runs, ended_meanwhile, ends_cycle, may_do_so, may_turn, starts_again};
 use super::renamed::Renaming;
 use super::roughing;
 use super::shown::{as_messages, end_differs, lacks_messages, texts, without_outputs};
@@ -207,6 +207,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
                         || runs[side].stays_open(act)
                         || runs[side].is_idle_speed(acts)
                         || (side == 1 && starts_again(runs, act, self.target))
+                        || (side == 1 && ended_meanwhile(&runs[0], acts, self.target))
                 })
             };
             if runs(0, here, there, &self.runs) {

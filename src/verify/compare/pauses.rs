@@ -154,8 +154,8 @@ impl Runs {
     }
 }
 
-/// True if the target starts again what its stop ended, and what ran on the source before a stop of which nobody knows
-/// what it ended there; `side` is the target, which may have another code for it.
+/// True if the target starts again what its stop ended, and what ran on the source before the stop, or before one of which
+/// nobody knows what it ended there; `side` is the target, which may have another code for it.
 pub fn starts_again([source, target]: &[Runs; 2], act: &Act<'_>, side: &Side<'_>) -> bool {
     let Some(running) = runs(&act.what) else { return false };
     let ran = match running {
@@ -164,7 +164,20 @@ pub fn starts_again([source, target]: &[Runs; 2], act: &Act<'_>, side: &Side<'_>
     };
     let open = |side: &Runs| side.open[running as usize];
     let is_same = ran == &*act.what || stands_for(side, ran, &act.what).is_some();
-    is_same && target.by_stop[running as usize] && open(source) && !open(target)
+    is_same && target.by_stop[running as usize] && !open(target)
+}
+
+/// True for what a stop of the target alone ends, and the target starts again before the tool moves: on the source it goes on.
+pub fn ended_meanwhile(source: &Runs, acts: &[Act<'_>], side: &Side<'_>) -> bool {
+    let Some((act, rest)) = acts.split_first() else { return false };
+    let Some(running) = runs(&act.what).filter(|_| act.told == Told::Implied) else { return false };
+    let ran = match running {
+        Running::Spindle => &source.spindle,
+        Running::Coolant => &source.coolant,
+    };
+    let stays = rest.iter().take_while(|act| !is_move(&act.what));
+    let next = stays.into_iter().find(|act| runs(&act.what) == Some(running));
+    next.is_some_and(|act| ran == &*act.what || stands_for(side, ran, &act.what).is_some())
 }
 
 /// True for the same new speed on both sides, if nobody knows whether one of the spindles turns, and the other stands

@@ -34,6 +34,9 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
     if machine.rules.turning.inch_set.is_some_and(other) {
         return Err(Stop::unnamed("a unit that the control is not set to"));
     }
+    if command.has(Op::Finish) && command.has_axes() {
+        return Err(Stop::unnamed("an axis word beside the finishing of a contour"));
+    }
     letters(machine, command)?;
     tool_word(command)?;
     arcs(machine, command, trace)

@@ -5,13 +5,14 @@ use crate::canon::{Op, Role, Sys};
 use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, FeedMode, Plane, Side, Trace};
-use crate::dialect::Control;
+use crate::dialect::{Control, turret_parts};
 use std::collections::BTreeMap;
 
 /// Takes the T word: the station turns to its place, then the offset counts.
 pub fn index(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let Some(word) = command.number(Role::Turret) else { return };
-    let (station, offset) = (f64::from(word / 100), word % 100);
+    let (station, offset) = turret_parts(f64::from(word));
+    let offset = offset as u32;
     if (1..100).contains(&word) {
         // By its digits it is an offset alone; whether a machine takes it for a station no source says.
         trace.doubt("machine:lathe.tool.word.short");

@@ -10,7 +10,8 @@ mod by_step;
 mod walk;
 
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{Control, Question};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question, Side};
 use crate::ir::{Module, Nc};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
@@ -64,6 +65,24 @@ pub(super) fn each(
     }
 }
 
+/// Where nobody says it of one control, its pecks are taken to go back to the plane; the other's are known to break the chip alone.
+fn short_pecks(index: usize, span: Span, context: &mut Context<'_>) {
+    let known = |control: &Control| control.behaviour(Question::HolePecks).map(|row| row.value.clone());
+    let (ours, theirs) = (known(context.source), known(context.target));
+    let short = Some("clearance");
+    let open = |one: &Option<String>| !matches!(one.as_deref(), Some("plane" | "clearance"));
+    let (control, side) = match (ours.as_deref() == short, theirs.as_deref() == short) {
+        (true, false) if open(&theirs) => (context.target, Side::Target),
+        (false, true) if open(&ours) => (context.source, Side::Source),
+        _ => return,
+    };
+    let what = format!(
+        "how far a peck goes back is not known of the {side}, and the pecks of the other control only break the chip"
+    );
+    let help = control.to_settle(Question::HolePecks.fact(), side);
+    context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.as_str()).with_help(help));
+}
+
 /// Pecks that the two controls do not make alike, or are not known to.
 pub fn pecks(module: &Module, context: &mut Context<'_>) {
     each(module, context, |index, span, nc, context| {
@@ -71,6 +90,7 @@ pub fn pecks(module: &Module, context: &mut Context<'_>) {
             context.rests_on_source(index, span, Question::HolePecks);
             context.rests_on_target(index, span, Question::HolePecks);
             context.must_agree(index, span, Question::HolePecks);
+            short_pecks(index, span, context);
         }
     });
 }

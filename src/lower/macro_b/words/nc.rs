@@ -247,7 +247,9 @@ impl<'a> Lowering<'a> {
         let Some(value) = word.value.as_ref().filter(|_| !word.equals) else {
             return self.findings.not_understood(span, format!("{} has no value", word.letter));
         };
+        let written = value;
         let Some((role, value)) = self.word_value(role, word.letter, value, code) else { return };
+        let value = if role == Role::Turret { self.turret_word(written, value) } else { value };
         let Some(value) = self.as_diameter(role, value, span) else { return };
         if seen.role(role) && role != Role::Builder {
             nc.items.retain(|item| !matches!(item, NcItem::Word(other, _) if *other == role));

@@ -2,7 +2,7 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Axis, CodeMeaning, Machine};
+use crate::dialect::{Axis, CodeMeaning, Machine, Question, Side};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::codes::CodeId;
 use crate::lower::macro_b::parts::Words;
@@ -66,7 +66,8 @@ impl<'a> Lowering<'a> {
             self.no_role(word, span, codes);
             // It is some axis word: a return is not one without axes for it.
             let reference = codes.iter().any(|(_, row)| row.op == Op::ReferenceReturn);
-            return usual.filter(|_| reference).map(|usual| (usual.role, None));
+            let role = usual.map(|usual| usual.role).or_else(|| self.lone_step(word));
+            return role.filter(|_| reference).map(|role| (role, None));
         };
         if !usual.origin.is_confirmed() && self.codes.tell_letter(word.letter, word.comma) {
             self.findings.rest_on(usual, span);
@@ -140,6 +141,19 @@ impl<'a> Lowering<'a> {
         self.control.machine() == Machine::Mill && !word.comma && !listed && !stated
     }
 
+    /// The axis that a letter may be where it is an increment on lathes of another G code system, and has no meaning in this one.
+    fn lone_step(&self, word: &Word) -> Option<Role> {
+        let lathe = self.control.machine() == Machine::Lathe && !word.comma;
+        let role = match word.letter {
+            'U' => Role::U,
+            'V' => Role::V,
+            'W' => Role::W,
+            'H' => Role::C,
+            _ => return None,
+        };
+        (lathe && self.codes.letter(word.letter, false).is_none()).then_some(role)
+    }
+
     fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>) {
         let comma = if word.comma { "," } else { "" };
         if self.foreign_axis(word) {
@@ -150,11 +164,26 @@ impl<'a> Lowering<'a> {
             );
             return self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
         }
+        if self.lone_step(word).is_some() {
+            let message = "U, V, W and H are no increments in this G code system: there they are axes, if the machine has them, and \
+                           whether it takes them as increments too no source says";
+            let help = "write G91 and X, Y, Z, C in a block, and G90 after it; or name the axes in the machine profile";
+            return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+        }
         let beside = match codes.first() {
             Some((_, row)) => format!(" beside {}", row.code),
             None => " in a block without a code".into(),
         };
         let message = format!("{comma}{} has no meaning{beside}", word.letter);
+        // A parameter says whether corners and angles of a lathe have a comma.
+        let corner = matches!(word.letter, 'A' | 'C' | 'R') && self.control.machine() == Machine::Lathe;
+        if corner && word.comma && self.control.behaviour(Question::CornerLetters).is_some() {
+            let help = format!(
+                "with the comma or without is said by a setting: {}",
+                self.control.to_settle(Question::CornerLetters.fact(), Side::Source)
+            );
+            return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+        }
         self.findings.not_understood(span, message);
     }
 

@@ -5,6 +5,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Axis, Machine, Question};
 use crate::ir::{BinOp, Expr, Nc, NcItem, SourceInfo};
 use crate::lower::macro_b::build::Lowering;
+use crate::syntax::{self, ExprKind};
 use crate::text::Span;
 
 /// The letters of [`Role::STEPS`].
@@ -25,6 +26,11 @@ impl Lowering<'_> {
         if nc.has(Op::MachineOnce) && Role::STEPS.iter().any(|(_, step)| has(*step)) {
             self.findings.not_understood(span, "an increment beside G53: no source says what it counts from");
         }
+        if nc.has(Op::Finish) && nc.names_axis() {
+            let what = "an axis or an allowance beside the finishing of a contour: no source says what the control does with it";
+            let found = Diagnostic::new(Code::NotUnderstood, span, what);
+            self.findings.add(found.with_help("leave it out, and write a move into a block of its own"));
+        }
         let control = self.control;
         let value = |role: Role| nc.word(role).map(|value| value.constant());
         if let Some(clash) = control.clash(|op| nc.has(op), value) {
@@ -35,7 +41,6 @@ impl Lowering<'_> {
                 None => finding,
             });
         }
-        self.check_turret(nc, span);
         self.check_corner(nc, span);
         self.check_line(nc, span);
     }
@@ -69,13 +74,20 @@ impl Lowering<'_> {
         }
     }
 
-    /// A tool word of more than four digits.
-    fn check_turret(&mut self, nc: &Nc, span: Span) {
-        let Some(tool) = nc.word(Role::Turret) else { return };
-        if tool.constant().is_some_and(|tool| tool >= 10_000.0) {
-            let message =
-                "a T word of more than four digits: which of them are the offset depends on the machine";
-            self.findings.not_understood(span, message);
+    /// The value of a T word in common terms: the digits that are written say which of them are the offset.
+    pub fn turret_word(&mut self, value: &syntax::Expr, lowered: Expr) -> Expr {
+        let turret = self.control.turret_word();
+        let fault = match &value.kind {
+            ExprKind::Number(number) => turret.fault(number.digits, number.value),
+            _ if turret.is_plain() => return lowered,
+            _ => Some("a computed T word: on this machine its last digits are not the two of other machines"),
+        };
+        if let Some(what) = fault {
+            self.findings.not_understood(value.span, what);
+        }
+        match lowered {
+            Expr::Number(number) => Expr::Number(turret.read(number)),
+            lowered => lowered,
         }
     }
 
