@@ -1,5 +1,6 @@
 //! Pairs of programs written by hand: what differs in one place only must be told apart, and how.
 
+mod alarms;
 mod arguments;
 mod as_called;
 mod assumed;

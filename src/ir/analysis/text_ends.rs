@@ -1,18 +1,23 @@
 //! Where the text of a program ends without a code that ends it.
 
 use super::Cfg;
-use crate::ir::{BlockId, Program, TermKind};
+use crate::ir::{BlockId, Program, StmtKind, TermKind};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
-/// The blocks that a run comes to and at whose end the text does: not those that only stand for a label that is missing.
+/// The blocks that a run comes to and at whose end the text does: not those that only stand for a label that is missing, nor
+/// those that an alarm ends before.
 pub fn text_ends<'p>(program: &'p Program, cfg: &'p Cfg) -> impl Iterator<Item = BlockId> + 'p {
     let falls = falls_to(program);
     cfg.order().iter().copied().filter(move |id| {
         program.block(*id).is_some_and(|block| {
             // What only jumps lead to and nothing stands in is a label that is missing.
             let there = !block.stmts.is_empty() || id.index() == 0 || falls.contains(id);
-            there && matches!(block.term.kind, TermKind::Stray)
+            let stops = block.stmts.iter().any(|stmt| match &stmt.kind {
+                StmtKind::Alarm { number, .. } => number.constant().is_some_and(|number| number >= 1.0),
+                _ => false,
+            });
+            there && !stops && matches!(block.term.kind, TermKind::Stray)
         })
     })
 }

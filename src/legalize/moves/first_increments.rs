@@ -6,8 +6,7 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::dialect::Question;
-use crate::ir::analysis::Cfg;
-use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
+use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::{Block, BlockId, Module, Nc, Stmt};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, ModalFacts};
@@ -22,12 +21,11 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Says what rests on the controls.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
+    let starts = OverCalls::of(module, &Fresh { facts: &facts });
     for (index, program) in module.programs.iter().enumerate() {
-        let fresh = Fresh { facts: &facts, index };
-        let starts = solve(&fresh, program, &Cfg::of(program));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);
-            let mut is_fresh = starts.at(id).copied().unwrap_or(false);
+            let mut is_fresh = starts.at(index, id).copied().unwrap_or(false);
             for stmt in &block.stmts {
                 if step(stmt, &mut state, &mut is_fresh) {
                     context.rests_on_source(index, stmt.site.span, Question::RotationIncrements);
@@ -43,23 +41,24 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 /// Whether a rotation began, and no absolute word followed yet, on some way.
 struct Fresh<'f> {
     facts: &'f ModalFacts,
-    index: usize,
 }
 
-impl Analysis for Fresh<'_> {
-    type State = bool;
-    const DIRECTION: Direction = Direction::Forward;
+impl Follow for Fresh<'_> {
+    type Known = bool;
 
-    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, bool)> {
-        cfg.roots().iter().map(|root| (*root, false)).collect()
+    fn outside(&self, _: usize) -> bool {
+        false
     }
 
-    fn block(&self, id: BlockId, block: &Block, fresh: &mut bool) {
-        let mut state = self.facts.at(self.index, id);
+    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, fresh: &mut bool) {
+        let mut state = self.facts.at(index, id);
         for stmt in &block.stmts {
             step(stmt, &mut state, fresh);
         }
     }
+
+    // What the library does not have is taken to leave it as it is.
+    fn lose(&self, _: &mut bool) {}
 }
 
 /// Takes a statement; true for increments right after a rotation.

@@ -6,8 +6,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Row, Side};
-use crate::ir::analysis::Cfg;
-use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
+use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::{Block, BlockId, Module, Nc, Stmt};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, ModalFacts};
@@ -27,12 +26,11 @@ fn forbids(control: &Control) -> bool {
 /// Reports arcs on which compensation begins or ends.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
+    let starts = OverCalls::of(module, &Waits { facts: &facts });
     for (index, program) in module.programs.iter().enumerate() {
-        let waits = Waits { facts: &facts, index };
-        let starts = solve(&waits, program, &Cfg::of(program));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);
-            let mut waiting = starts.at(id).copied().unwrap_or(false);
+            let mut waiting = starts.at(index, id).copied().unwrap_or(false);
             for stmt in &block.stmts {
                 if step(stmt, &mut state, &mut waiting) {
                     let side = if forbids(context.source) { Side::Source } else { Side::Target };
@@ -54,23 +52,24 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 /// Whether compensation was switched, and no move in the plane followed yet, on some way.
 struct Waits<'w> {
     facts: &'w ModalFacts,
-    index: usize,
 }
 
-impl Analysis for Waits<'_> {
-    type State = bool;
-    const DIRECTION: Direction = Direction::Forward;
+impl Follow for Waits<'_> {
+    type Known = bool;
 
-    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, bool)> {
-        cfg.roots().iter().map(|root| (*root, false)).collect()
+    fn outside(&self, _: usize) -> bool {
+        false
     }
 
-    fn block(&self, id: BlockId, block: &Block, waiting: &mut bool) {
-        let mut state = self.facts.at(self.index, id);
+    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, waiting: &mut bool) {
+        let mut state = self.facts.at(index, id);
         for stmt in &block.stmts {
             step(stmt, &mut state, waiting);
         }
     }
+
+    // What the library does not have is taken to leave it as it is.
+    fn lose(&self, _: &mut bool) {}
 }
 
 /// Takes a statement; true where it begins or ends compensation on an arc.

@@ -48,6 +48,8 @@ pub struct ProgramCertificate {
     pub target_branches_total: usize,
     /// Ways of the target that were never gone.
     pub target_not_reached: Vec<NotReached>,
+    /// Ways of the source that only raise an alarm and that no run went: both texts say the same there.
+    pub by_text: Vec<NotReached>,
     /// Constants that were edited alike in both texts, each to go a way that it decides; those ways were gone.
     pub edits: Vec<Edit>,
     /// Positions count as the same up to here where words round, millimetres.

@@ -32,5 +32,6 @@ pub use kinds::{is_cut, returns};
 pub use pairs::compare;
 pub use shown::lacks_messages;
 pub use substitutes::lacks;
+pub use texts::say_the_same;
 pub use tolerance::Tolerance;
 pub use variables::writes_elsewhere;

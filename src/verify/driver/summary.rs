@@ -4,7 +4,7 @@ use super::verifier::Verifier;
 use crate::canon::Op;
 use crate::control::ProgramRef;
 use crate::verify::certificate::{OpenFact, Outcome, ProgramCertificate, Reason, Why};
-use crate::verify::explore::{Coverage, NotReached};
+use crate::verify::explore::{Coverage, NotReached, compare_alarms};
 use crate::verify::sides::Job;
 use crate::verify::triage::through;
 
@@ -15,6 +15,10 @@ impl Verifier<'_, '_> {
     pub(super) fn certificate(mut self, there: Option<ProgramRef>) -> ProgramCertificate {
         let source_file = self.job.source.files.get(self.program.file);
         let target_file = there.and_then(|there| self.job.target.files.get(there.file));
+        if there.is_some() && self.witness.is_none() {
+            compare_alarms(self.job, self.program, &mut self.coverage, &mut self.target_coverage);
+        }
+        let by_text = self.coverage.by_text(self.job.source);
         let ways = |coverage: &Coverage, side| there.map_or(Vec::new(), |_| coverage.not_reached(side));
         let not_reached = ways(&self.coverage, self.job.source);
         let target_not_reached = ways(&self.target_coverage, self.job.target);
@@ -76,6 +80,7 @@ impl Verifier<'_, '_> {
             target_branches_covered,
             target_branches_total,
             target_not_reached,
+            by_text,
             edits: self.edits,
             tolerance_mm: self.tolerance.rounded,
             largest_difference_mm: self.largest,

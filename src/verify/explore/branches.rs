@@ -22,7 +22,7 @@ pub struct NotReached {
 }
 
 /// A branch: its file and place.
-type Place = (usize, Span);
+pub(super) type Place = (usize, Span);
 
 /// The branches of one program, or of several that count as one.
 #[derive(Clone)]
@@ -34,6 +34,8 @@ pub struct Coverage {
     seen: BTreeSet<(usize, Span, i64)>,
     /// Ways that constants make impossible.
     impossible: BTreeSet<(Place, i64)>,
+    /// Ways that were compared by reading both texts.
+    read: BTreeSet<(Place, i64)>,
 }
 
 impl Coverage {
@@ -60,7 +62,7 @@ impl Coverage {
         }
         let longest =
             branches.keys().map(|(_, span): &Place| span.end.saturating_sub(span.start)).max().unwrap_or(0);
-        Self { branches, longest, seen: BTreeSet::new(), impossible: never }
+        Self { branches, longest, seen: BTreeSet::new(), impossible: never, read: BTreeSet::new() }
     }
 
     /// Notes where a run went. True where that was new.
@@ -109,7 +111,7 @@ impl Coverage {
     pub fn totals(&self) -> (usize, usize) {
         let ways = |computed: bool| if computed { 1 } else { 2 };
         let all: usize = self.branches.values().map(|(computed, _)| ways(*computed)).sum();
-        let total = all - self.impossible.len();
+        let total = all - self.impossible.len() - self.read.len();
         (total, total - self.missing().count())
     }
 
@@ -121,8 +123,9 @@ impl Coverage {
     fn missing(&self) -> impl Iterator<Item = (Place, &'static str)> + '_ {
         self.branches.iter().flat_map(|(place, (computed, seen))| {
             let none = (*computed && seen.is_empty()).then_some((*place, "taken"));
-            let lacks =
-                |way: i64| !computed && !seen.contains(&way) && !self.impossible.contains(&(*place, way));
+            let settled =
+                |way: i64| self.impossible.contains(&(*place, way)) || self.read.contains(&(*place, way));
+            let lacks = |way: i64| !computed && !seen.contains(&way) && !settled(way);
             let no = lacks(0).then_some((*place, "false"));
             let yes = lacks(1).then_some((*place, "true"));
             none.into_iter().chain(no).chain(yes)
@@ -139,14 +142,33 @@ impl Coverage {
         self.missing().filter_map(way).collect()
     }
 
+    /// True for a branch that was come to, and that never went this one of its ways.
+    pub(super) fn lacks_one_way(&self, place: Place, way: i64) -> bool {
+        let other = self.branches.get(&place).is_some_and(|(_, seen)| seen.contains(&(1 - way)));
+        other && self.left().contains(&(place, way))
+    }
+
+    /// Takes a way for compared, because both texts say the same there.
+    pub(super) fn read(&mut self, place: Place, way: i64) {
+        self.read.insert((place, way));
+    }
+
+    /// The ways that were compared by reading both texts.
+    pub fn by_text(&self, side: &Side<'_>) -> Vec<NotReached> {
+        let named = |way: i64| if way == 0 { "false" } else { "true" };
+        self.read.iter().map(|(place, way)| told(side, *place, named(*way))).collect()
+    }
+
     /// The ways that were never gone.
     pub fn not_reached(&self, side: &Side<'_>) -> Vec<NotReached> {
-        let report = |((file, span), way): (Place, &'static str)| {
-            let source = side.files.get(file).map_or(&[][..], |file| file.parsed.source);
-            let (line, column) = side.line_of(file, span.start);
-            let text = source.get(span.range()).map(String::from_utf8_lossy).unwrap_or_default();
-            NotReached { line, column, text: text.into_owned(), way }
-        };
-        self.missing().map(report).collect()
+        self.missing().map(|(place, way)| told(side, place, way)).collect()
     }
+}
+
+/// A way as it is reported.
+fn told(side: &Side<'_>, (file, span): Place, way: &'static str) -> NotReached {
+    let source = side.files.get(file).map_or(&[][..], |file| file.parsed.source);
+    let (line, column) = side.line_of(file, span.start);
+    let text = source.get(span.range()).map(String::from_utf8_lossy).unwrap_or_default();
+    NotReached { line, column, text: text.into_owned(), way }
 }

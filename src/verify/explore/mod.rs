@@ -1,6 +1,7 @@
 //! The search for runs that tell something: what a program takes from outside, the circumstances that it is tried in, and
 //! which ways its branches went.
 
+mod alarms;
 mod branches;
 mod constants;
 mod inputs;
@@ -10,6 +11,7 @@ mod scenarios;
 mod settled;
 mod steer;
 
+pub use alarms::compare_alarms;
 pub use branches::{Coverage, NotReached};
 pub use inputs::{Inputs, inputs, inputs_of_both};
 pub use on_target::{asked, on_target, set_by_hand, unit};

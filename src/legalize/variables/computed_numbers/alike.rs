@@ -74,6 +74,8 @@ fn same(
         None if there.is_none() => None,
         Some(Meaning::State(Sys::Other, _)) if source.name() != target.name() => Some(false),
         Some(Meaning::State(Sys::StopMessage, _)) if !stops_alike(source, target) => Some(false),
+        // A number that is written there may be one that the target does not take.
+        Some(Meaning::State(state, _)) if takes_less(source, target, *state) => Some(false),
         Some(Meaning::State(..)) => {
             let accessible = |c| access(their).contains(c);
             Some(here == there && access(our).chars().all(accessible))
@@ -81,6 +83,12 @@ fn same(
         _ => Some(here == there && !target.is_numbered_reserved(number)),
     };
     (alike, here.is_some())
+}
+
+/// True for state that the source may set to a larger number than the target takes.
+fn takes_less(source: &Control, target: &Control, state: Sys) -> bool {
+    let most = |control: &Control| control.system_run(state).and_then(|row| row.most);
+    most(target).is_some_and(|most_there| most(source).is_none_or(|most_here| most_here > most_there))
 }
 
 fn access<'s>(state: Option<&'s State<'_>>) -> &'s str {

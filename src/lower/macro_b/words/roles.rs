@@ -63,7 +63,7 @@ impl<'a> Lowering<'a> {
             return Some((Role::Builder, None));
         }
         let Some(usual) = usual.filter(|_| !self.foreign_axis(word)) else {
-            self.no_role(word, span, codes);
+            self.no_role(word, span, codes, in_force);
             // It is some axis word: a return is not one without axes for it.
             let reference = codes.iter().any(|(_, row)| row.op == Op::ReferenceReturn);
             let role = usual.map(|usual| usual.role).or_else(|| self.lone_step(word));
@@ -95,11 +95,7 @@ impl<'a> Lowering<'a> {
         if codes.iter().any(|(_, row)| special(row.op)) {
             return true;
         }
-        if codes.iter().any(|(_, row)| row.op == SpindleOrient) {
-            let what = format!(
-                "{} beside M19 is the angle at which the spindle stops, which is not converted",
-                word.letter
-            );
+        if let Some(what) = not_converted(word, codes, in_force) {
             self.findings.not_understood(span, what);
             return false;
         }
@@ -154,7 +150,7 @@ impl<'a> Lowering<'a> {
         (lathe && self.codes.letter(word.letter, false).is_none()).then_some(role)
     }
 
-    fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>) {
+    fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>, in_force: Option<&CodeMeaning>) {
         let comma = if word.comma { "," } else { "" };
         if self.foreign_axis(word) {
             let message = format!("{} is not an axis of this machine", word.letter);
@@ -169,6 +165,9 @@ impl<'a> Lowering<'a> {
                            whether it takes them as increments too no source says";
             let help = "write G91 and X, Y, Z, C in a block, and G90 after it; or name the axes in the machine profile";
             return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+        }
+        if let Some(what) = not_converted(word, codes, in_force) {
+            return self.findings.not_understood(span, what);
         }
         let beside = match codes.first() {
             Some((_, row)) => format!(" beside {}", row.code),
@@ -211,6 +210,30 @@ impl<'a> Lowering<'a> {
             let help = "name a machine profile with machine = \"lathe\"";
             self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
         }
+    }
+}
+
+/// What a word is that the machine knows and no conversion has, in words.
+fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMeaning>) -> Option<String> {
+    let has = |op: fn(Op) -> bool| {
+        codes.iter().map(|(_, row)| *row).chain(in_force).find(|row| op(row.op)).map(|row| &*row.code)
+    };
+    let letter = word.letter;
+    let orients = |op: Op| op == Op::SpindleOrient;
+    let taps = |op: Op| matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid);
+    match letter {
+        'P' | 'R' => has(orients)
+            .map(|code| format!("{letter} beside {code} is the angle at which the spindle stops, which is not converted")),
+        'Q' => has(taps).map(|code| {
+            format!(
+                "Q beside {code} is the depth of each peck of a rigid tap, which is not converted: how far a control backs off \
+                 between pecks is a setting of its own (parameters 5200.5 and 5213 of a Fanuc). Tap to the depth in one go, or \
+                 write the pecks as taps of their own"
+            )
+        }),
+        'J' => has(taps)
+            .map(|code| format!("J beside {code} is how much faster the tap comes out than it goes in, which is not converted")),
+        _ => None,
     }
 }
 
