@@ -154,11 +154,8 @@ fn way(machine: &Machine, cycle: &Cycle, trace: &mut Trace) -> Result<Op, Stop> 
         }
         Op::FaceHole | Op::SideHole | Op::FacePeck | Op::SidePeck if peck => {
             match machine.rules.pecks_to_plane.ask(trace) {
-                Some(true) => Op::CyclePeck,
                 Some(false) => Op::CycleChipBreak,
-                None => {
-                    return Err(Stop::unnamed("how far a peck goes back, which the profile does not say"));
-                }
+                Some(true) | None => Op::CyclePeck,
             }
         }
         _ => Op::CycleDrill,
