@@ -213,7 +213,7 @@ impl Overlay {
             .into_iter()
             .flat_map(|row| match (row.first, row.subscripts.split_last()) {
                 (Some(first), Some((last, rest))) if last.axis => (0..last.count)
-                    .zip(&axes)
+                    .zip(axes.iter().skip(last.from.saturating_sub(1) as usize))
                     .map(|(at, axis)| SystemVariable {
                         first: first.checked_add(at * last.step),
                         subscripts: rest.to_vec(),

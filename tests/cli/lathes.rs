@@ -130,6 +130,21 @@ fn the_profiles_that_ship_are_lathes() {
     assert!(run.out.contains("P9020") && run.out.contains("T0101"), "{}", run.out);
 }
 
+/// The chip conveyor of the Haas that ships is left out for a lathe without one, which is told once.
+#[test]
+fn the_chip_conveyor_of_the_haas_that_ships_is_no_question_of_a_program() {
+    let shop = Shop::with(&[("a.nc", "O1\nG20 G99 T0101\nM31\nG0 X2. Z.1\nM33\nM30\n")]);
+    let from = repository("machines/haas-st.toml");
+    let to = repository("machines/fanuc-0i-t.toml");
+    let run = shop.run(&format!(
+        "convert a.nc --from haas --to fanuc --machine {from} --machine {to} --out out --no-verify"
+    ));
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(run.out.contains("M31 (chip conveyor forward) is left out"), "{}", run.out);
+    let made = shop.read("out/a.nc");
+    assert!(!made.contains("M31") && !made.contains("M33") && made.contains("G0 X2. Z0.1"), "{made}");
+}
+
 /// Four holes on a face with the codes of a builder, by the pair of profiles that ships: the same names, other numbers.
 #[test]
 fn the_profiles_of_live_tools_that_ship_are_a_pair() {

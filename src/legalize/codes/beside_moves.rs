@@ -4,6 +4,8 @@
 //! the move, as the source does it, wherever no source says that the target does the same in one block. Beside a rapid
 //! move or a wait nobody could tell in the work when spindle or coolant act: where the source does not say, they stay.
 //! Where it matters and no source says it, the code goes where the trade has it, and the fact is named.
+//! The blocks of a lathe's contour that the cycle counts on (the first, the last, a corner) stay whole where the target is taken to do the
+//! same, and the fact is named.
 //! Counter-example: `G1 X5. M3 S1000`, which cuts with the spindle turning on one control, and then starts it on another.
 
 use crate::canon::{Auxiliary, Group, Op, Role};
@@ -26,17 +28,29 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         return false;
     }
     let facts = context.modal_facts(module);
+    let contours = context.features.any_op(Op::reads_contour);
     let pauses = blocks().flat_map(|block| &block.stmts).any(|stmt| pause_of(&stmt.kind).is_some());
     let (mut out, mut changed) = (Stmts::new(), false);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        let ends = [Role::ContourFirst, Role::ContourLast]
+            .map(|role| if contours { named(program, role) } else { Vec::new() });
         for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| acts_beside(block)) {
             let mut state = facts.at(index, BlockId(at as u32));
+            let mut cornered = false;
             for stmt in block.stmts.drain(..) {
                 let before = stmt.kind.nc().is_some_and(|nc| kinds(nc).next().is_some());
                 let before = before.then(|| state.clone());
                 state.step(&stmt);
+                let corner = stmt.kind.nc().is_some_and(has_corner);
+                let number = stmt.site.sequence.get();
+                let [first, last] =
+                    ends.each_ref().map(|ends| number.is_some_and(|number| ends.contains(&number)));
+                let whole = Whole { head: first || cornered, tail: last || corner };
+                cornered = corner;
                 match before {
-                    Some(before) => changed |= split(index, stmt, &before, pauses, context, &mut out),
+                    Some(before) => {
+                        changed |= split(index, stmt, &before, (pauses, whole), context, &mut out)
+                    }
                     None => out.push(stmt),
                 }
             }
@@ -45,6 +59,26 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         }
     }
     changed
+}
+
+/// The sequence numbers that words of a role name.
+fn named(program: &ir::Program, role: Role) -> Vec<u32> {
+    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    let words = stmts.filter_map(|stmt| stmt.kind.nc()?.word(role)?.constant());
+    words.map(|number| number as u32).collect()
+}
+
+/// Where nothing may come between a block and its neighbour: before it, as it begins a contour or a corner waits for it, or after it, as it
+/// ends a contour or has a corner.
+#[derive(Clone, Copy)]
+struct Whole {
+    head: bool,
+    tail: bool,
+}
+
+/// True for a line whose end the next block says too: with a corner, or by its angle.
+fn has_corner(nc: &Nc) -> bool {
+    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_drawn()))
 }
 
 /// True for a block with a statement that may move and does something else too.
@@ -78,7 +112,7 @@ fn split(
     index: usize,
     mut stmt: Stmt,
     before: &Modal,
-    pauses: bool,
+    (pauses, whole): (bool, Whole),
     context: &mut Context<'_>,
     out: &mut Stmts,
 ) -> bool {
@@ -91,11 +125,15 @@ fn split(
         out.push(stmt);
         return false;
     }
-    let mut block = Block { nc, before, pauses, moves, early: Vec::new(), late: Vec::new() };
+    let mut block =
+        Block { nc, before, pauses, whole, moves, early: Vec::new(), late: Vec::new(), theirs: Vec::new() };
     for fact in block.split(context) {
         context.rests_on_source(index, stmt.site.span, fact);
     }
-    let Block { early, late, .. } = block;
+    let Block { early, late, theirs, .. } = block;
+    for fact in theirs {
+        context.rests_on_target(index, stmt.site.span, fact);
+    }
     let changed = !early.is_empty() || !late.is_empty();
     if !late.is_empty() && before.may_call() {
         context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
@@ -181,9 +219,12 @@ struct Block<'b> {
     before: &'b Modal,
     /// True where the library has stops: the target may end at one what the source lets run.
     pauses: bool,
+    whole: Whole,
     moves: Move,
     early: Vec<Vec<NcItem>>,
     late: Vec<Vec<NcItem>>,
+    /// What the target is taken to do alike, and no source says.
+    theirs: Vec<Question>,
 }
 
 impl Block<'_> {
@@ -204,6 +245,11 @@ impl Block<'_> {
             let waits = changes && !kind.waits() && context.source.acts(Auxiliary::Change).late;
             let late = here.late || waits;
             let same = there.known && there.late == late;
+            let whole = if late { self.whole.tail } else { self.whole.head };
+            if whole && !waits && there.late == late {
+                self.theirs.extend(tells.then_some(there.question));
+                continue;
+            }
             // Of a builder's code nothing says which block it may stand in.
             if same || (!waits && !here.known && (!tells || kind == Auxiliary::Other)) {
                 continue;

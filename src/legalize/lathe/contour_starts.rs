@@ -3,13 +3,14 @@
 use super::place::Place;
 use super::straight::entered_straight;
 use crate::canon::{Op, Role};
-use crate::ir::{Expr, Nc, Program};
+use crate::ir::{Expr, Nc, Program, Stmt};
 use std::collections::BTreeMap;
 
 /// The place of a statement: its block, and where it stands in it.
 pub type At = (usize, usize);
 
 /// The contours of a program: where they stand, and where their cycles begin.
+#[derive(Default)]
 pub struct Contours {
     /// The places of the first and the last block of each.
     spans: Vec<(At, At)>,
@@ -50,6 +51,16 @@ impl Contours {
         }
         let span = |(first, last): (u32, u32)| Some((*numbered.get(&first)?, *numbered.get(&last)?));
         Self { spans: named.into_iter().filter_map(span).collect(), starts }
+    }
+
+    /// Where the cycles begin that read the contour which a statement begins.
+    pub fn starts_at(&self, stmt: &Stmt) -> Option<[Option<f64>; 2]> {
+        stmt.site.sequence.get().and_then(|number| self.starts.get(&number)).copied()
+    }
+
+    /// True inside a contour.
+    pub fn inside(&self, at: At) -> bool {
+        self.spans.iter().any(|(first, last)| *first <= at && at <= *last)
     }
 
     /// True where both stand in the same contours.

@@ -1,14 +1,17 @@
 //! Words of a lathe's cycles that count least increments on one of the two controls.
 //!
 //! Law: n increments are `n * increment` of the unit in force. Side condition: the unit is known where a number must change its form.
-//! Counter-example: a peck of 0.0005 mm, which is no whole count.
+//! Error bound: half of a least increment, to which a control takes such a word anyway.
+//! Counter-example: a peck of 0.0004 mm, of which no count is left.
 
 use crate::canon::Role;
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Units};
-use crate::ir::{Block, Expr, Module, Nc, NcItem, StmtKind};
+use crate::ir::{Block, Expr, Module, Nc, NcItem, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::legalize::moves::increments::{Counted, Texts, each};
+use crate::text::Span;
 
 /// The roles that count increments on some control.
 const ROLES: [Role; 6] =
@@ -58,7 +61,42 @@ pub fn to_lengths(module: &mut Module, context: &mut Context<'_>) -> bool {
 
 /// Makes counts of those that count on the target.
 pub fn to_counts(module: &mut Module, context: &mut Context<'_>) -> bool {
-    all(module, context, &ROLES, counted)
+    let before = lengths_of(module, context.target);
+    let made = all(module, context, &ROLES, counted);
+    let after = lengths_of(module, context.target);
+    for ((index, span, length), (_, _, count)) in before.into_iter().zip(after) {
+        if is_rounded(&length, &count, context.target) {
+            let told = Diagnostic::new(Code::NearlyEqual, span, ROUNDED).with_help(ROUNDED_HELP);
+            context.add_once(index, ROUNDED, told);
+        }
+    }
+    made
+}
+
+/// The words that count on the target, each with its program and its place.
+fn lengths_of(module: &Module, target: &Control) -> Vec<(usize, Span, Expr)> {
+    let of_stmt = |index: usize, stmt: &Stmt| {
+        let words = stmt.kind.nc().map_or(&[][..], |nc| &nc.items).iter().filter_map(|item| match item {
+            NcItem::Word(role, value) if ROLES.contains(role) && counted(target, *role) => {
+                Some(value.clone())
+            }
+            _ => None,
+        });
+        let span = stmt.site.span;
+        words.map(|value| (index, span, value)).collect::<Vec<_>>()
+    };
+    let programs = module.programs.iter().enumerate();
+    let stmts = programs.flat_map(|(index, program)| {
+        program.blocks.iter().flat_map(|block| &block.stmts).map(move |stmt| (index, stmt))
+    });
+    stmts.flat_map(|(index, stmt)| of_stmt(index, stmt)).collect()
+}
+
+/// True for a length that became another one, whatever the unit: the increments of the two are far apart.
+fn is_rounded(length: &Expr, count: &Expr, target: &Control) -> bool {
+    let (Expr::Number(length), Expr::Increments(count)) = (length, count) else { return false };
+    let numbers = target.numbers();
+    [numbers.increment_mm, numbers.increment_inch].iter().all(|size| (length / size - count).abs() > 1e-6)
 }
 
 fn all(
@@ -104,14 +142,16 @@ fn changed(value: &Expr, units: Option<Units>, counts: bool, target: &Control) -
         None if value.constant() == Some(0.0) => 1.0,
         None => return None,
     };
-    let whole = |number: f64| (number - number.round()).abs() < 1e-6;
     match (value, counts) {
         // By a division: 2800 * 0.001 has digits that no one wrote.
         (Expr::Increments(count), false) => Some(Expr::Number(count / (1.0 / size).round())),
-        (Expr::Number(number), true) if whole(number / size) => {
+        (Expr::Number(number), true) if *number == 0.0 || (number / size).round() != 0.0 => {
             Some(Expr::Increments((number / size).round()))
         }
-        // A length that is no whole count is refused where it is written.
+        // A length of which no count is left is refused where it is written.
         _ => Some(value.clone()),
     }
 }
+
+const ROUNDED: &str = "a peck or a depth that the target counts in least increments has more digits than that: it is rounded to the nearest one";
+const ROUNDED_HELP: &str = "make sure that half of a least increment, and a pass more or less, does not matter; or write it in whole increments";

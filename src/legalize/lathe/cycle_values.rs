@@ -162,8 +162,8 @@ fn not_set(source: &Control, kind: &Kind, role: Role) -> (String, String) {
 fn of_setting(control: &Control, name: &str, role: Role) -> Untold {
     let (kind, number) = setting_named(name);
     let title = &control.dialect().title;
-    let what =
-        format!("{kind} {number} of the {title} says {}, and its profile does not give it", meaning(role));
+    let meaning = of_row(control, name, role);
+    let what = format!("{kind} {number} of the {title} says {meaning}, and its profile does not give it");
     let help =
         format!("look it up on the machine, and write in its profile, under [{kind}s]: {number} = \"...\"");
     Untold(what, help, Some(name.into()))
@@ -175,7 +175,17 @@ pub(super) fn setting_named(name: &str) -> (&str, &str) {
 }
 
 fn meaning(role: Role) -> String {
-    let meaning = role.meaning().trim().trim_end_matches('.');
+    in_a_sentence(role.meaning())
+}
+
+/// What a setting says, in words of its own where it counts parts of what the word does: tenths of a lead.
+fn of_row(control: &Control, name: &str, role: Role) -> String {
+    let counts = control.setting_row(name).filter(|row| row.parts.is_some());
+    counts.map_or_else(|| meaning(role), |row| in_a_sentence(&row.meaning))
+}
+
+fn in_a_sentence(meaning: &str) -> String {
+    let meaning = meaning.trim().trim_end_matches('.');
     let mut chars = meaning.chars();
     chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
 }
@@ -250,7 +260,7 @@ fn in_setting(
     let title = &target.dialect().title;
     let what = format!(
         "{kind} {number} of the {title} must be {value} while this program runs ({}); {now}",
-        meaning(role)
+        of_row(target, name, role)
     );
     let help = format!(
         "set it so before the program is run; if the machine is always set so, write in its profile, under [{kind}s]: {number} = \"{value}\""

@@ -165,12 +165,7 @@ impl Run<'_> {
                         true => Ok(()),
                         false => Err("the next block moves by the code of before"),
                     };
-                    let units = match state.op(Group::Units) {
-                        Some(Op::Inch) => Some(Units::Inch),
-                        Some(Op::Metric) => Some(Units::Metric),
-                        _ => self.source.units(),
-                    };
-                    new.extend(self.cycle(kind, stmt, units, may));
+                    new.extend(self.cycle(kind, stmt, may));
                 }
                 None if matches!(stmt.kind, StmtKind::Comment) => {
                     new.push(stmt);
@@ -230,13 +225,7 @@ impl Run<'_> {
 
     /// The cycle with its words, after the block that sets the rest, if the target has one, and before the passes that the target's cycle
     /// does not make; or all passes of a thread that the target has no cycle for.
-    fn cycle(
-        &mut self,
-        kind: &'static Kind,
-        mut stmt: Stmt,
-        units: Option<Units>,
-        may: Result<(), &'static str>,
-    ) -> Vec<Stmt> {
+    fn cycle(&mut self, kind: &'static Kind, mut stmt: Stmt, may: Result<(), &'static str>) -> Vec<Stmt> {
         let span = stmt.site.span;
         let set = self.set.iter().find(|set| set.setup == kind.setup);
         if set.is_some_and(Set::is_stale) {
@@ -252,7 +241,7 @@ impl Run<'_> {
             }
         };
         let threads = stmt.kind.nc().filter(|_| kind.cycle == Op::Threading);
-        let given = match threads.and_then(|nc| beyond(nc, &all, units, self.target)) {
+        let given = match threads.and_then(|nc| beyond(nc, &all, self.target)) {
             Some((what, help)) => Err((what.into(), help.into())),
             None => resolve(all.clone(), kind, self.target),
         };

@@ -18,6 +18,8 @@ pub struct Place {
     steps: Option<bool>,
     /// True where every hole ends where its cycle began.
     keeps_level: bool,
+    /// True where the coordinates changed since the last word of a place: where the block before ended is told in the old ones.
+    shifted: bool,
     /// The numbers of the first and the last block of the contour that a cycle read.
     read: Option<(u32, u32)>,
     /// Inside a contour: the number of its last block, and what was known where the cycle began.
@@ -38,7 +40,7 @@ impl Place {
 
     /// What is known where other ways come in.
     pub fn forget(&mut self) {
-        *self = Self { keeps_level: self.keeps_level, ..Self::default() };
+        *self = Self { keeps_level: self.keeps_level, shifted: self.shifted, ..Self::default() };
     }
 
     /// True while a drilling cycle is in force, as far as the blocks before say.
@@ -59,6 +61,19 @@ impl Place {
     /// Z.
     pub fn z(&self) -> Option<f64> {
         self.at.z
+    }
+
+    /// True where an offset or a shift came after the last move.
+    pub fn is_shifted(&self) -> bool {
+        self.shifted
+    }
+
+    /// Where the tool stands in the coordinates that count for the words of a block: an offset that it chooses counts already.
+    pub fn counted_in(mut self, nc: &Nc) -> Self {
+        if changes_coordinates(nc) {
+            (self.at, self.shifted) = (At::default(), true);
+        }
+        self
     }
 
     /// Takes what is known of where the cycles begin that read the contour that begins here.
@@ -138,12 +153,14 @@ impl Place {
         if !nc.ops().all(is_plain) {
             self.at = At::default();
         }
+        self.shifted |= changes_coordinates(nc);
         if !nc.ops().all(|op| is_plain(op) || chooses_offset(op)) {
             return;
         }
         if !nc.names_axis() {
             return;
         }
+        self.shifted = false;
         if let Some(side) = self.hole {
             return self.drill(nc, side, skipped);
         }
@@ -205,6 +222,11 @@ fn is_plain(op: Op) -> bool {
             | Op::Cylinder
     );
     !op.takes_axes() && !elsewhere && !chooses_offset(op) && op.group() != Group::Units
+}
+
+/// True for a block after which the same place has other coordinates.
+pub(super) fn changes_coordinates(nc: &Nc) -> bool {
+    nc.ops().any(|op| op.takes_axes() || chooses_offset(op))
 }
 
 /// True for what chooses an offset, before the move of its block.

@@ -10,7 +10,7 @@ use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
@@ -121,14 +121,20 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut stmts = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|block| &block.stmts);
     let calls_after_moves = stmts.any(is_modal);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let straight = entered_straight(program);
+        let (straight, reached) = (entered_straight(program), reached(program));
         // What a macro after each move does to where cycles begin is not known.
-        let starts = if calls_after_moves { BTreeMap::new() } else { Contours::of(program).starts };
+        let contours = if calls_after_moves { Contours::default() } else { Contours::of(program) };
         let (mut mode, mut place) = (None, Place::keeping_level());
-        for (block, straight) in program.blocks.iter_mut().zip(straight) {
+        for (count, (block, straight)) in program.blocks.iter_mut().zip(straight).enumerate() {
             if !straight {
                 mode = None;
                 place.forget();
+            }
+            let read = !reached.get(count).copied().unwrap_or(true)
+                && block.stmts.first().is_some_and(|stmt| contours.starts_at(stmt).is_some());
+            if read {
+                // Cycles alone come to it, which read places.
+                mode = Some(Op::Absolute);
             }
             let mut ahead = Vec::new();
             for (at, stmt) in block.stmts.iter_mut().enumerate() {
@@ -136,8 +142,9 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 if calls_after_moves {
                     place.forget();
                 }
-                enter(&mut place, stmt, &starts);
+                enter(&mut place, stmt, contours.starts_at(stmt), read && at == 0);
                 let before = place;
+                let inside = before.in_contour() || contours.inside((count, at));
                 place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 // The reader has refused a place and an increment of one axis.
@@ -157,7 +164,7 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     continue;
                 }
                 // The depth of a hole counts from its plane, not from where the tool stands.
-                if !place.drills() && (both_kinds(nc) || before.in_contour()) {
+                if !place.drills() && (both_kinds(nc) || inside) {
                     to_places(nc, before);
                 }
                 // The blocks of a contour are places: the cycle must not read them under G91.
@@ -165,7 +172,16 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     continue;
                 }
                 if both_kinds(nc) {
-                    found.push((index, stmt.site.span));
+                    found.push((
+                        index,
+                        stmt.site.span,
+                        (BOTH, "write both as places, or both as increments"),
+                    ));
+                    continue;
+                }
+                if inside && has_steps(nc) {
+                    found.push((index, stmt.site.span, (IN_CONTOUR, IN_CONTOUR_HELP)));
+                    swap(nc, |(whole, step)| (step, whole));
                     continue;
                 }
                 let needed = if has_steps(nc) { Op::Incremental } else { Op::Absolute };
@@ -192,26 +208,36 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     for (index, span) in changed {
         context.rests_on_target(index, span, Question::CyclePlanesFrozen);
     }
-    for (index, span) in found {
-        let what = "a place and an increment in one block, and where the tool stands is not known here: the target has one mode for \
-                    both axes";
-        let help = "write both as places, or both as increments";
+    for (index, span, (what, help)) in found {
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
     true
 }
 
+const BOTH: &str = "a place and an increment in one block, and where the tool stands is not known here: the target has one mode for both axes";
+const IN_CONTOUR: &str = "increments in a contour become places for the target, and where the cycle that reads it begins is not known as numbers";
+const IN_CONTOUR_HELP: &str = "write G0 with X and Z as numbers right before each cycle that reads this contour, the same for all of them; or write the \
+                               contour as places";
+
 /// Comes to a statement: a contour begins where the cycles begin that read it.
-fn enter(place: &mut Place, stmt: &Stmt, starts: &BTreeMap<u32, [Option<f64>; 2]>) {
+fn enter(place: &mut Place, stmt: &Stmt, start: Option<[Option<f64>; 2]>, read: bool) {
     let inside = place.in_contour();
     place.enter(stmt);
-    let start = stmt.site.sequence.get().and_then(|number| starts.get(&number));
     match start {
-        Some([x, z]) if !inside && place.in_contour() => place.knows(*x, *z),
+        Some([x, z]) if read || !inside && place.in_contour() => place.knows(x, z),
         // The run comes to it by itself, too.
-        Some([x, z]) => place.agrees(*x, *z),
+        Some([x, z]) => place.agrees(x, z),
         None => {}
     }
+}
+
+/// For each block, whether any way of the program leads to it.
+fn reached(program: &Program) -> Vec<bool> {
+    let mut found = vec![false; program.blocks.len()];
+    for to in program.blocks.iter().flat_map(|block| block.term.kind.successors()).chain([BlockId(0)]) {
+        found.get_mut(to.index()).into_iter().for_each(|found| *found = true);
+    }
+    found
 }
 
 fn has_steps(nc: &Nc) -> bool {

@@ -1,30 +1,21 @@
 //! Threads of many passes that the target's cycle does not cut.
 //!
-//! Law: none. It says what the target's cycle has no words for: a start of the spindle, an angle, a depth that is no whole count, a thread
-//! without a finishing pass. Counter-example: an angle of 45 degrees, which one control takes and another has an alarm for.
+//! Law: none. It says what the target's cycle has no words for: a start of the spindle, an angle, a thread without a finishing
+//! pass. Counter-example: an angle of 45 degrees, which one control takes and another has an alarm for.
 
-use super::counts::counted;
 use super::cycle_values::{Values, constant};
 use super::settings::{setting, takes};
 use crate::assume::Predicate;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Units};
-use crate::ir::{Expr, Module, Nc};
+use crate::dialect::{Control, Question};
+use crate::ir::{Module, Nc};
 use crate::legalize::Context;
 use crate::text::Span;
 
 /// What of a thread's block, and of what else its cycle takes, the target's cycle cannot be told, and what to do.
-pub(super) fn beyond(
-    nc: &Nc,
-    values: &Values,
-    units: Option<Units>,
-    target: &Control,
-) -> Option<(&'static str, &'static str)> {
+pub(super) fn beyond(nc: &Nc, values: &Values, target: &Control) -> Option<(&'static str, &'static str)> {
     let angle = constant(values, Role::ThreadAngle).unwrap_or(0.0);
-    let lengths = [Role::ThreadHeight, Role::ThreadFirst].map(|role| (role, nc.word(role)));
-    let least = values.iter().find(|(role, _)| *role == Role::ThreadLeast);
-    let least = (Role::ThreadLeast, least.map(|(_, value)| value));
     let counts_finishes = takes(target, Op::ThreadingSetup, Role::ThreadForm)
         || setting(target, Op::Threading, Role::ThreadFinishes).is_some();
     if nc.word(Role::ThreadStart).is_some() && !takes(target, Op::Threading, Role::ThreadStart) {
@@ -33,10 +24,6 @@ pub(super) fn beyond(
         Some((ANGLE, "give the thread an angle that the target has"))
     } else if counts_finishes && constant(values, Role::ThreadFinishes).unwrap_or(0.0) < 1.0 {
         Some((UNFINISHED, "give the source an allowance for a finishing pass"))
-    } else if lengths.into_iter().chain([least]).any(|(role, value)| {
-        counted(target, role) && value.is_some_and(|value| !is_count(value, units, target))
-    }) {
-        Some((COUNT, "write depths of whole least increments"))
     } else {
         None
     }
@@ -93,19 +80,9 @@ fn has_angle(target: &Control, angle: f64) -> bool {
     }
 }
 
-/// True for a length that is a whole count of the target's least increments, and where nobody knows it.
-fn is_count(value: &Expr, units: Option<Units>, target: &Control) -> bool {
-    let numbers = target.numbers();
-    let (Some(length), Some(units)) = (value.constant(), units) else { return true };
-    let size = if units == Units::Inch { numbers.increment_inch } else { numbers.increment_mm };
-    let count = length / size;
-    matches!(value, Expr::Increments(_)) || (count - count.round()).abs() < 1e-6
-}
-
 const START: &str = "the target's cycle has no word for the angle of the spindle at which a thread begins";
 const ANGLE: &str = "the target's cycle does not take this angle of a thread";
 const UNFINISHED: &str = "the target's cycle makes a finishing pass at least, and this thread has none";
-const COUNT: &str = "a depth of this thread is no whole count of the target's least increments";
 const FLANKS: &str = "the passes of a thread that is cut on both flanks are written out, and no source says in which order the flanks come, or from where \
                       along Z";
 const FLANKS_HELP: &str = "run the cycle in the air on the source's machine, compare Z of its first two passes with those written, and confirm \

@@ -7,7 +7,7 @@
 
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
+use crate::dialect::{Control, Machine, Question};
 use crate::ir::constant_part;
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Program, TermKind};
@@ -23,6 +23,10 @@ const Z: f64 = DEPTH as f64;
 
 /// Adds the length to positions, or takes it away; true if there are any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    // The offsets of a lathe's tool are those of its T word, along X as along Z: its positions are work coordinates (docs/lathe.md).
+    if context.source.machine() == Machine::Lathe {
+        return false;
+    }
     let row = |control: &Control| {
         control.behaviour(FACT).map(|row| (row.value == "added", row.origin.is_confirmed()))
     };

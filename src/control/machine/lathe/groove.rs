@@ -16,6 +16,8 @@ struct Groove {
     step: f64,
     relief: f64,
     retract: f64,
+    /// How far the words may have been rounded off: all moves by the first, each peck and each step by the second once more.
+    off: (f64, f64),
 }
 
 /// Cuts a groove, column by column.
@@ -23,7 +25,6 @@ pub fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace) 
     let (start, motion) = (machine.position, machine.motion);
     let groove = groove(machine, op, command, trace)?;
     trace.doubt("machine:lathe.groove.moves");
-    trace.rounded = machine.off_by() + 4.0 * machine.most_off(command, |_| true);
     let across = 1 - groove.along;
     let (first, last) = (groove.a[across], groove.e[across]);
     let way = sense(last - first);
@@ -32,10 +33,12 @@ pub fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace) 
         let next = first + way * f64::from(column) * groove.step;
         let is_last = way == 0.0 || groove.step <= 0.0 || (next - last) * way >= -EXACT;
         let at = if column > 0 && is_last { last } else { next };
+        trace.rounded = groove.off(column);
         if column > 0 {
             machine.go_one(across, at, true, trace);
         }
-        pecks(machine, &groove, trace);
+        pecks(machine, &groove, column, trace);
+        trace.rounded = groove.off(column);
         if column > 0 && groove.relief > 0.0 {
             machine.go_one(across, at - way * groove.relief, true, trace);
         }
@@ -52,7 +55,7 @@ pub fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace) 
 }
 
 /// G3: in pecks to the bottom.
-fn pecks(machine: &mut Machine, groove: &Groove, trace: &mut Trace) {
+fn pecks(machine: &mut Machine, groove: &Groove, column: u32, trace: &mut Trace) {
     let (top, bottom) = (groove.a[groove.along], groove.e[groove.along]);
     let way = sense(bottom - top);
     let mut count = 0u32;
@@ -62,10 +65,19 @@ fn pecks(machine: &mut Machine, groove: &Groove, trace: &mut Trace) {
         if groove.peck <= 0.0 || (next - bottom) * way >= -EXACT {
             break;
         }
+        trace.rounded = groove.off(column + count);
         machine.go_one(groove.along, next, false, trace);
         machine.go_one(groove.along, next - way * groove.retract, true, trace);
     }
+    trace.rounded = groove.off(column);
     machine.go_one(groove.along, bottom, false, trace);
+}
+
+impl Groove {
+    /// How far a place may be off to which so many pecks and steps lead; X counts twice.
+    fn off(&self, count: u32) -> f64 {
+        self.off.0 + 2.0 * f64::from(count) * self.off.1
+    }
 }
 
 fn groove(machine: &Machine, op: Op, command: &Command, trace: &mut Trace) -> Result<Groove, Stop> {
@@ -106,5 +118,7 @@ fn groove(machine: &Machine, op: Op, command: &Command, trace: &mut Trace) -> Re
             machine.peck_clearance
         }
     };
-    Ok(Groove { along, a, e, peck, step, relief, retract })
+    let own = machine.most_off(command, |role| matches!(role, Role::GrooveX | Role::GrooveZ));
+    let off = (machine.off_by() + 4.0 * machine.most_off(command, |_| true), own);
+    Ok(Groove { along, a, e, peck, step, relief, retract, off })
 }

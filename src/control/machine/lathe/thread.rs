@@ -144,8 +144,10 @@ pub fn many(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resu
     };
     let lead = Lead { lead, start: command.word(Role::ThreadStart).unwrap_or(0.0), change: 0.0, chamfer };
     trace.doubt("machine:lathe.thread.passes");
-    trace.rounded = machine.off_by() + 4.0 * machine.most_off(command, |_| true);
+    let (before, off) = (machine.off_by(), machine.most_off(command, |_| true));
     for (at, depth) in depths(&screw)?.into_iter().enumerate() {
+        // A depth may be the sum of as many first ones; X counts twice.
+        trace.rounded = before + (4.0 + 2.0 * at as f64) * off;
         let far = screw.both.is_some_and(|leading| (at % 2 == 1) == leading);
         pass(machine, (a, e), &screw, (depth, far), &lead, trace)?;
         if trace.is_full() {

@@ -46,7 +46,10 @@ fn plane(hole: &mut Hole<'_>) -> Result<Plane, Refused> {
             Expr::binary(BinOp::Add, step, Expr::Number(initial))
         }
         (None, _)
-            if hole.fresh && !hole.side() && hole.target.system_runs(Sys::EndPosition).next().is_some() =>
+            if hole.fresh
+                && !hole.side()
+                && !hole.place.is_shifted()
+                && hole.target.system_runs(Sys::EndPosition).next().is_some() =>
         {
             hole.cycle.plane = None;
             from(Expr::System(Sys::EndPosition, [Expr::Number(3.0)].into()), step)

@@ -28,7 +28,8 @@ pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
         Op::FaceBoreStop | Op::SideBoreStop => return Err((STOPS, STOPS_HELP)),
         Op::FaceBoreDwell | Op::SideBoreDwell => {
             if hole.begins && hole.nc.word(Role::CycleDwell).is_none() {
-                return Err((WAIT, "write P into this block"));
+                let last = hole.waits.last().ok_or((WAIT, "write P into this block"))?;
+                hole.nc.items.push(NcItem::Word(Role::CycleDwell, last));
             }
             hole.write_if_begun(if hole.side() { Op::SideBore } else { Op::FaceBore });
         }
@@ -108,8 +109,9 @@ fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     let told = hole.nc.word(Role::CycleDwell).cloned();
     let earlier = hole.all.other_waits || !hole.all.dwells.is_empty();
     if hole.begins && told.is_none() {
-        if waits || pecks && earlier {
-            return Err((WAIT, "write P into this block"));
+        if waits || pecks && earlier && !hole.waits.none_yet() {
+            let last = hole.waits.last().ok_or((WAIT, "write P into this block"))?;
+            hole.nc.items.push(NcItem::Word(Role::CycleDwell, last));
         }
         no_wait(hole);
     }

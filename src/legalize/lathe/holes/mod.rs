@@ -7,6 +7,7 @@
 
 mod by_place;
 mod by_step;
+mod waits;
 mod walk;
 
 use crate::canon::{Group, Op, Role};

@@ -1,5 +1,6 @@
 //! The walk through the drilling blocks of a program.
 
+use super::waits::Waits;
 use super::{by_place, by_step, drills};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
@@ -7,7 +8,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::lathe::place::Place;
+use crate::legalize::lathe::place::{Place, changes_coordinates};
 use crate::legalize::lathe::straight::entered_straight;
 use crate::legalize::{Context, Modal};
 use std::collections::BTreeMap;
@@ -44,6 +45,8 @@ pub(super) struct Cycle {
     pub peck: Option<Expr>,
     /// The code that the target has in force.
     pub written: Option<Op>,
+    /// True where the coordinates changed since it began.
+    pub shifted: bool,
 }
 
 /// What holds of all holes of a program.
@@ -76,6 +79,8 @@ pub(super) struct Hole<'h> {
     pub all: &'h All,
     pub target: &'h Control,
     pub turning: Turning,
+    /// What P is told before it.
+    pub waits: Waits,
     pub asked: Vec<Asked>,
     /// Blocks that go before it.
     pub before: Vec<Nc>,
@@ -135,18 +140,27 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     let facts = context.modal_facts(module);
     let other_waits = other_waits(&context.features, by_steps);
     let turns = |op| context.features.op(op);
+    let waits = Waits::of(context.source, module);
     let stands = !turns(Op::SpindleCw) && !turns(Op::SpindleCcw) && !context.features.has(Feature::Code);
     let mut found: Vec<(usize, Diagnostic)> = Vec::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
         let all = All { other_waits, stands, ..all(program, &states) };
         let straight = entered_straight(program);
-        let mut walk = Walk { cycle: Cycle::default(), place: Place::keeping_level(), speed: None };
-        for ((block, mut state), straight) in program.blocks.iter_mut().zip(states).zip(straight) {
+        let mut walk = Walk {
+            cycle: Cycle::default(),
+            place: Place::keeping_level(),
+            speed: None,
+            waits: waits.begin(program),
+        };
+        for (at, ((block, mut state), straight)) in
+            program.blocks.iter_mut().zip(states).zip(straight).enumerate()
+        {
             if !straight {
                 walk.cycle = Cycle::default();
                 walk.place.forget();
                 walk.speed = None;
+                walk.waits.come_in(at == 0);
             }
             let mut out = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::take(&mut block.stmts) {
@@ -237,6 +251,7 @@ struct Walk {
     place: Place,
     /// The last speed.
     speed: Option<f64>,
+    waits: Waits,
 }
 
 /// What becomes of a block that drills, and what is asked.
@@ -263,9 +278,12 @@ impl Walk {
     ) -> Option<Made> {
         let (before, spindle) = (state.op(Group::Cycle), state.op(Group::Spindle));
         state.step(stmt);
+        let waits = self.waits.clone();
+        self.waits.take(stmt);
         self.place.enter(stmt);
-        let place = self.place;
+        let place = stmt.kind.nc().map_or(self.place, |nc| self.place.counted_in(nc));
         self.place.step(stmt);
+        self.cycle.shifted |= stmt.kind.nc().is_some_and(changes_coordinates);
         let nc = match &stmt.kind {
             StmtKind::Nc(nc) => nc,
             StmtKind::Comment | StmtKind::Assign { .. } => return None,
@@ -302,6 +320,8 @@ impl Walk {
         }
         if fresh {
             self.cycle = Cycle::default();
+        } else if self.cycle.shifted {
+            return Some(Err((SHIFTED, "end the cycle before it (G80), and write it again after it")));
         }
         let mut hole = Hole {
             nc: nc.clone(),
@@ -313,6 +333,7 @@ impl Walk {
             all,
             target,
             turning,
+            waits,
             asked: Vec::new(),
             before: Vec::new(),
         };
@@ -337,6 +358,7 @@ fn says_again(item: &NcItem) -> bool {
     matches!(item, NcItem::Word(role, _) if role.is_axis())
 }
 
+const SHIFTED: &str = "an offset or a shift came while this drilling cycle was in force: no source says whether its planes move with it";
 const SKIPPED: &str = "a block skip before a drilling block: what lasts from it is not known after it";
 const WAITS: &str =
     "a G4 in a drilling cycle that waits: on one of the two controls its P is the wait of the next hole too";

@@ -72,6 +72,9 @@ impl<'a> Lowering<'a> {
         if !usual.origin.is_confirmed() && self.codes.tell_letter(word.letter, word.comma) {
             self.findings.rest_on(usual, span);
         }
+        if usual.role == Role::Speed {
+            self.speed_of_stop(span, codes);
+        }
         if is_arc_word(usual.role) && !self.fits_arc(word, span, codes, own.is_some(), in_force) {
             return None;
         }
@@ -94,6 +97,10 @@ impl<'a> Lowering<'a> {
         let special = |op: Op| matches!(op, Builder | MachineSpecific | CycleOther | ProbeOther | Thread);
         if codes.iter().any(|(_, row)| special(row.op)) {
             return true;
+        }
+        if codes.iter().any(|(_, row)| row.op == SpindleOrient) {
+            self.angle_of_stop(word, span);
+            return false;
         }
         if let Some(what) = not_converted(word, codes, in_force) {
             self.findings.not_understood(span, what);
@@ -150,7 +157,35 @@ impl<'a> Lowering<'a> {
         (lathe && self.codes.letter(word.letter, false).is_none()).then_some(role)
     }
 
+    /// A word beside M19, which the tables have without one.
+    fn angle_of_stop(&mut self, word: &Word, span: Span) {
+        let letter = word.letter;
+        let what =
+            format!("{letter} beside M19 is the angle at which the spindle stops, which is not converted");
+        let help = format!(
+            "name the code in the profiles of both machines, each with its letter: [[site]] with code = \"M19 {letter}\", name = \
+             \"spindle.stop.at\", words = {{ {letter} = \"angle\" }}, and a text"
+        );
+        self.findings.add(Diagnostic::new(Code::NotUnderstood, span, what).with_help(help));
+    }
+
+    /// S beside M19 alone, which some builders take as the angle.
+    fn speed_of_stop(&mut self, span: Span, codes: &BlockCodes<'a>) {
+        use Op::{SpindleCcw, SpindleCw, SpindleOrient, SurfaceSpeed, TurnsPerMinute};
+        let has = |wanted: &[Op]| codes.iter().any(|(_, row)| wanted.contains(&row.op));
+        if !has(&[SpindleOrient]) || has(&[SpindleCw, SpindleCcw, SurfaceSpeed, TurnsPerMinute]) {
+            return;
+        }
+        let what = "S beside M19 is taken as a speed; on some builders' machines it is the angle at which the spindle stops";
+        let help = "if it is an angle, name the code in the profiles of both machines: [[site]] with code = \"M19 S\", name = \
+                    \"spindle.stop.at\", words = { S = \"angle\" }, and a text";
+        self.findings.add(Diagnostic::new(Code::Conditional, span, what).with_help(help).asked_once());
+    }
+
     fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>, in_force: Option<&CodeMeaning>) {
+        if !word.comma && codes.iter().any(|(_, row)| row.op == Op::SpindleOrient) {
+            return self.angle_of_stop(word, span);
+        }
         let comma = if word.comma { "," } else { "" };
         if self.foreign_axis(word) {
             let message = format!("{} is not an axis of this machine", word.letter);
@@ -219,11 +254,8 @@ fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMean
         codes.iter().map(|(_, row)| *row).chain(in_force).find(|row| op(row.op)).map(|row| &*row.code)
     };
     let letter = word.letter;
-    let orients = |op: Op| op == Op::SpindleOrient;
     let taps = |op: Op| matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid);
     match letter {
-        'P' | 'R' => has(orients)
-            .map(|code| format!("{letter} beside {code} is the angle at which the spindle stops, which is not converted")),
         'Q' => has(taps).map(|code| {
             format!(
                 "Q beside {code} is the depth of each peck of a rigid tap, which is not converted: how far a control backs off \

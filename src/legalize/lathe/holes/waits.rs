@@ -1,0 +1,76 @@
+//! The last P of any code, which on some controls is the wait of a hole that has none.
+
+use crate::canon::Role;
+use crate::dialect::Control;
+use crate::ir::{Expr, Module, NcItem, Program, Stmt, StmtKind, TermKind};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// What is known of it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Waits {
+    /// As a wait in milliseconds, where it is known.
+    last: Option<f64>,
+    /// True where no code of the run had one.
+    none_yet: bool,
+    /// What P is beside the codes of the source.
+    roles: Rc<BTreeSet<Role>>,
+    /// True where no program of the library calls another.
+    alone: bool,
+}
+
+impl Waits {
+    /// What P is on the source, and whether programs of the library hand it on.
+    pub fn of(source: &Control, module: &Module) -> Self {
+        let of_row = |row: &crate::dialect::CodeMeaning| row.words.get("P").copied();
+        let roles = Rc::new(source.dialect().codes.iter().filter_map(of_row).collect());
+        let mut blocks = module.programs.iter().flat_map(|program| &program.blocks);
+        let alone = !blocks.any(|block| matches!(block.term.kind, TermKind::Call { .. }));
+        Self { roles, alone, ..Self::default() }
+    }
+
+    /// Before the first block of a program: one that returns was called, maybe with a P, and one that jumps back may have had one.
+    pub fn begin(&self, program: &Program) -> Self {
+        let kinds = || program.blocks.iter().map(|block| &block.term.kind);
+        let returns = kinds().any(|kind| matches!(kind, TermKind::Return { .. }));
+        let again = kinds().flat_map(TermKind::successors).any(|to| to.index() == 0);
+        Self { none_yet: self.alone && !returns && !again, ..self.clone() }
+    }
+
+    /// At a block to which other ways may lead; to the first one the program comes.
+    pub fn come_in(&mut self, first: bool) {
+        (self.last, self.none_yet) = (None, self.none_yet && first);
+    }
+
+    /// The wait, where it is known.
+    pub fn last(&self) -> Option<Expr> {
+        self.last.map(Expr::Number)
+    }
+
+    /// True where no code of the run had a P.
+    pub fn none_yet(&self) -> bool {
+        self.none_yet
+    }
+
+    /// Takes the P of a block: a wait in thousandths or in seconds, or what is none.
+    pub fn take(&mut self, stmt: &Stmt) {
+        let StmtKind::Nc(nc) = &stmt.kind else {
+            if !matches!(stmt.kind, StmtKind::Comment | StmtKind::Assign { .. }) {
+                self.come_in(false);
+            }
+            return;
+        };
+        let wait = |role: Role, by: f64| nc.word(role).map(|wait| wait.constant().map(|wait| wait * by));
+        let waits = wait(Role::CycleDwell, 1.0).or(wait(Role::DwellMs, 1.0)).or(wait(Role::DwellS, 1000.0));
+        let other = nc.items.iter().any(|item| match item {
+            NcItem::Word(role, _) => self.roles.contains(role),
+            NcItem::Code(..) => true,
+            NcItem::Op(_) => false,
+        });
+        if waits.is_some() || other {
+            let known = waits.flatten().filter(|_| stmt.site.skip.is_none());
+            self.last = known.map(|ms| (ms * 1e6).round() / 1e6);
+            self.none_yet = false;
+        }
+    }
+}
