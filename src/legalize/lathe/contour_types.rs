@@ -96,13 +96,12 @@ fn valleys_of(program: &Program, stmt: &Stmt, by_word: bool) -> Option<bool> {
     }
 }
 
-const NAMES_ONE: &str = "this contour has valleys by R1, and the target knows it by X and Z in its first block, which names one axis";
+const NAMES_ONE: &str = "this contour has valleys by the word R of its cycle, and the target knows it by X and Z in its first block, which names one axis";
 const NAMES_ONE_HELP: &str =
     "write X and Z into the first block of the contour, Z as the place where the cycle begins";
 const NAMES_BOTH: &str = "the first block of this contour names X and Z, by which the target takes it for one with valleys, and the source does \
-                          not, as R1 is missing";
-const NAMES_BOTH_HELP: &str =
-    "give the move along Z a block of its own before the cycle, or write R1 if the contour has valleys";
+                          not, as the word R of the cycle is missing";
+const NAMES_BOTH_HELP: &str = "give the move along Z a block of its own before the cycle, or R of 1 into the cycle if the contour has valleys";
 const UNKNOWN: &str = "whether this contour has valleys is not known here, and the target is told otherwise";
 const UNKNOWN_HELP: &str =
     "write R of the cycle as a number, and the first block of the contour in the same program";
