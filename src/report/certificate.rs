@@ -40,7 +40,11 @@ fn of_program(out: &mut String, found: &ProgramCertificate) {
     list(out, "What the conversion supposes", assumed);
     list(out, "Ways of the source that no scenario went", found.not_reached.iter().map(way));
     list(out, "Ways of the target that no scenario went", found.target_not_reached.iter().map(way));
-    list(out, "Ways to an alarm that no scenario went, and that both texts write alike", found.by_text.iter().map(way));
+    list(
+        out,
+        "Ways to an alarm that no scenario went, and that both texts write alike",
+        found.by_text.iter().map(way),
+    );
     let unconfirmed = found.unconfirmed.iter().cloned();
     list(out, "Facts that mattered and that no manual confirms", unconfirmed);
     if let Some(witness) = &found.witness {

@@ -31,7 +31,11 @@ pub fn certificate(out: &mut String, program: &ProgramReport, found: Option<&Pro
     list(out, "What the conversion supposes", assumed);
     list(out, "Ways of the source that no scenario went", found.not_reached.iter().map(way));
     list(out, "Ways of the target that no scenario went", found.target_not_reached.iter().map(way));
-    list(out, "Ways to an alarm that no scenario went, and that both texts write alike", found.by_text.iter().map(way));
+    list(
+        out,
+        "Ways to an alarm that no scenario went, and that both texts write alike",
+        found.by_text.iter().map(way),
+    );
     list(
         out,
         "Facts that mattered and that no manual confirms",

@@ -113,7 +113,9 @@ impl Text<'_, '_> {
 
     fn alarm(&self, block: &Block, target: &VarRef, value: &Expr) -> Option<(f64, String)> {
         let Index::Number(number) = target.index else { return None };
-        let (Sys::Alarm, ..) = self.side.control.read_system(&target.name, Some(number))? else { return None };
+        let (Sys::Alarm, ..) = self.side.control.read_system(&target.name, Some(number))? else {
+            return None;
+        };
         let ExprKind::Number(number) = &value.kind else { return None };
         let source = self.side.source(self.file)?;
         let shown = block.items.iter().filter_map(|item| match &item.kind {

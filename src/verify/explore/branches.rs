@@ -123,7 +123,8 @@ impl Coverage {
     fn missing(&self) -> impl Iterator<Item = (Place, &'static str)> + '_ {
         self.branches.iter().flat_map(|(place, (computed, seen))| {
             let none = (*computed && seen.is_empty()).then_some((*place, "taken"));
-            let settled = |way: i64| self.impossible.contains(&(*place, way)) || self.read.contains(&(*place, way));
+            let settled =
+                |way: i64| self.impossible.contains(&(*place, way)) || self.read.contains(&(*place, way));
             let lacks = |way: i64| !computed && !seen.contains(&way) && !settled(way);
             let no = lacks(0).then_some((*place, "false"));
             let yes = lacks(1).then_some((*place, "true"));

@@ -136,13 +136,7 @@ impl<'a> Lowering<'a> {
         self.control.machine() == Machine::Mill && !word.comma && !listed && !stated
     }
 
-    fn no_role(
-        &mut self,
-        word: &Word,
-        span: Span,
-        codes: &BlockCodes<'a>,
-        in_force: Option<&CodeMeaning>,
-    ) {
+    fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>, in_force: Option<&CodeMeaning>) {
         let comma = if word.comma { "," } else { "" };
         if self.foreign_axis(word) {
             let message = format!("{} is not an axis of this machine", word.letter);
