@@ -2,7 +2,7 @@
 
 use super::control::numbered;
 use super::site::fingerprint;
-use super::{CodeHead, CodeMeaning, Control, Dialect, Profile, SiteCode, WordMeaning};
+use super::{CodeHead, CodeMeaning, Control, Dialect, Profile, Question, SiteCode, WordMeaning};
 use crate::canon::{Act, Op, Role};
 use std::collections::BTreeMap;
 
@@ -115,6 +115,10 @@ impl Control {
 
     /// The letter of a role beside a code, and whether it is a comma word.
     pub fn letter(&self, role: Role, code: Option<&CodeMeaning>) -> Option<(char, bool)> {
+        let told = (role == Role::Repeat).then(|| self.behaviour(Question::CycleRepeatLetter)).flatten();
+        if let Some(letter) = told.and_then(|row| row.value.chars().next()) {
+            return Some((letter, false));
+        }
         // Of two letters that the code reads, the one that usually has the role is written.
         let beside = code.and_then(|row| {
             let read = row.words.iter().filter(|(_, found)| **found == role);

@@ -82,6 +82,10 @@ pub const ALL: &[(&str, &str)] = &[
     ),
     ("machine:return.without.call", "a return without a call ends the program"),
     ("machine:rotation.incremental", "the centre of a rotation counts from the tool in incremental mode"),
+    (
+        "machine:shape.from.setting",
+        "a rotation without its angle turns by nothing, and a scaling without its factor keeps the size",
+    ),
     ("machine:start.in.subprogram", "a new start ends the calls that are open"),
     ("machine:state.larger", "a state takes a larger number than the table says"),
     ("machine:sub.area.end.again", "a second end of the subroutines ends the program"),

@@ -229,6 +229,7 @@ questions! {
     CyclePlanesFrozen "cycle.planes.frozen" YES, "the planes of a drilling cycle keep the meaning of the block that gave them";
     CycleL0Stores "cycle.l0.stores" YES, "a cycle with L0 is stored and not run", if "role:repeat";
     CycleL0Moves "cycle.l0.moves" YES, "a position beside a repeat count of 0 is gone to, and nothing is drilled there", if "role:repeat";
+    CycleRepeatLetter "cycle.repeat.letter" OneOf(&["K", "L"]), "the letter by which the count of a drilling cycle is written, where the control reads two", if "said";
     CycleRunsWithoutAxes "cycle.runs.without.axes" YES, "a cycle's own block runs it even without a position";
     CycleRunsByDepth "cycle.runs.by.depth" YES, "a block with a new depth or retract plane alone runs the cycle in force";
     CycleStartsSpindle "cycle.starts.spindle" YES, "a drilling cycle starts a spindle that a tool change left standing, and a tap any that stands", if "said";

@@ -100,12 +100,15 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
                     }
                 }
             }
-            Op::ScaleOn => scale(machine, command),
+            Op::ScaleOn => scale(machine, command, trace),
             Op::ScaleOff => machine.frame.scale = None,
             _ => {}
         }
     }
 }
+
+/// What a rotation without its angle and a scaling without its factor take from a setting is not known.
+const FROM_SETTING: &str = "machine:shape.from.setting";
 
 fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let (first, second, _) = machine.plane.axes();
@@ -116,7 +119,11 @@ fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     for (axis, value) in machine.named_axes(command) {
         centre[axis] = if machine.incremental { centre[axis] + value } else { value };
     }
-    let angle = command.word(Role::Angle).unwrap_or(0.0);
+    let angle = command.word(Role::Angle);
+    if angle.is_none() {
+        trace.doubt(FROM_SETTING);
+    }
+    let angle = angle.unwrap_or(0.0);
     let degrees = if machine.rules.rotation_is_ccw.ask(trace) { angle } else { -angle };
     if machine.incremental {
         trace.doubt("machine:rotation.incremental");
@@ -125,7 +132,7 @@ fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     machine.frame.rotation = Some(Rotation { axes: (first, second), centre, degrees });
 }
 
-fn scale(machine: &mut Machine, command: &Command) {
+fn scale(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let mut centre = machine.frame.program(&machine.position);
     for (axis, value) in machine.named_axes(command) {
         centre[axis] = value;
@@ -134,6 +141,9 @@ fn scale(machine: &mut Machine, command: &Command) {
     let mut factors = [1.0; AXES];
     for (own, role) in factors.iter_mut().zip([Role::ScaleX, Role::ScaleY, Role::ScaleZ]) {
         *own = command.word(role).unwrap_or(factor);
+    }
+    if command.word(Role::Scale).is_none() && factors == [1.0; AXES] {
+        trace.doubt(FROM_SETTING);
     }
     machine.frame.scale = Some((factors, centre));
 }

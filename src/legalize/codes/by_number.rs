@@ -7,6 +7,7 @@
 //! is a whole number: where both controls round it, what they round it to is looked up.
 //! Counter-example: `G#1` with `#1` = 47, which offsets on one control and engraves on the other.
 
+use super::found_codes::FoundCodes;
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
@@ -24,6 +25,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let summaries = LazyCell::new(|| context.summaries(module));
     let rounds =
         [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
+    let in_force = LazyCell::new(|| FoundCodes::of(module));
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     // Programs with words beside such a code: a code that both have may take them otherwise.
     let mut worded: BTreeSet<(usize, char)> = BTreeSet::new();
@@ -43,6 +45,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         if rounds && value.constant().is_none() {
                             numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
                         }
+                        let differs =
+                            |n: &Number| !is_same(*letter, n.number, context.source, context.target);
+                        // What nobody can have put in force where it is read is none of them.
+                        let never = |n: &Number| {
+                            let row = context.source.code(*letter, n.number, &[]);
+                            n.read && differs(n) && row.is_some_and(|row| !in_force.may_find(index, row.op))
+                        };
+                        numbers.iter_mut().for_each(|numbers| numbers.retain(|number| !never(number)));
                         let finding = check(*letter, numbers, context.source, context.target);
                         if finding.is_some() && nc.items.iter().any(|item| matches!(item, NcItem::Word(..))) {
                             worded.insert((index, *letter));

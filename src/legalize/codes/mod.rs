@@ -5,6 +5,7 @@ pub(in crate::legalize) mod beside_moves;
 pub(in crate::legalize) mod by_number;
 pub(in crate::legalize) mod code_chains;
 pub(in crate::legalize) mod forbidden;
+mod found_codes;
 pub(in crate::legalize) mod lookahead;
 pub(in crate::legalize) mod machine_codes;
 pub(in crate::legalize) mod missing;

@@ -4,9 +4,10 @@
 //! in its word; about 0 both do the same. Side conditions: codes that choose or leave the frame of coordinates may stand
 //! under a rotation, and scaling may stand with a drilling cycle, only where that is known of both controls; where it is
 //! not, the place is for review. Where it ends: a mirror about another coordinate than the work zero is refused where
-//! the target mirrors about the zero.
+//! the target mirrors about the zero; so is an angle or a factor that
+//! is not written, which each control takes from a setting of its own.
 
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row};
 use crate::ir::analysis::behind::behind;
@@ -28,6 +29,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 && !about_zero(nc)
             {
                 mirror(nc, index, span, context);
+            }
+            if let Some(what) = stmt.kind.nc().and_then(from_setting)
+                && context.source.name() != context.target.name()
+            {
+                let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+                context
+                    .add(index, finding.with_help("write the value that the setting of the old machine has"));
             }
             if let Some(nc) = stmt.kind.nc().filter(|nc| scales(nc)) {
                 let counts_parts =
@@ -69,6 +77,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 const COMPUTED: &str = "the scale factor is computed, and no source says whether a control takes its value or counts parts of it, as it does \
      with a number without a point: make sure that both take the value";
+
+/// What a block takes from a setting of the control, in words.
+fn from_setting(nc: &Nc) -> Option<&'static str> {
+    let has = |is_it: fn(Role) -> bool| {
+        nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if is_it(*role)))
+    };
+    if nc.has(Op::RotateOn) && !has(|role| role == Role::Angle) {
+        Some(
+            "the angle of this rotation is not written: the control takes it from a setting of its own, and another control from another",
+        )
+    } else if nc.has(Op::ScaleOn) && !has(Role::is_scale) {
+        Some(
+            "the factor of this scaling is not written: the control takes it from a setting of its own, and another control from another",
+        )
+    } else {
+        None
+    }
+}
 
 fn is_computed_factor(item: &NcItem) -> bool {
     matches!(item, NcItem::Word(role, value) if role.is_scale() && value.constant().is_none())

@@ -52,7 +52,7 @@ fn words_are_written_in_order_with_their_letters() {
                 word(Role::Feed, n(100.0)),
                 word(Role::Repeat, n(0.0)),
             ],
-            "G99 G81 Z-10. R2. F100. L0",
+            "G99 G81 Z-10. R2. F100. K0",
         ),
         (vec![word(Role::X, n(1.0)), word(Role::CycleR, n(2.0))], "X1. R2."),
         (vec![op(WriteWork), word(Role::OffsetRow, n(1.0)), word(Role::X, v(1))], "G10 L2 P1 X#1"),
