@@ -315,6 +315,9 @@ impl<'r, 'f> Session<'r, 'f> {
     pub fn finish(mut self, halt: Halt, variables: BTreeMap<String, f64>) -> Run {
         let at = self.trace.at;
         let modes = self.modes();
+        if let Halt::Ended(by) = halt {
+            self.machine.end_local(by);
+        }
         let left = matches!(halt, Halt::Ended(_)).then(|| self.machine.left());
         let end = match halt {
             Halt::Ended(by) => {

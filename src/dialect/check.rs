@@ -135,6 +135,7 @@ pub const STATEMENTS: &[&str] = &[
     "clear",
     "set",
     "wait",
+    "lookahead.stop",
     "index",
     "indirect",
     "indirect.assign",

@@ -75,8 +75,11 @@ fn options_of(dialect: &Dialect) -> BTreeSet<&str> {
     let rows = rows.chain(dialect.operators.iter().map(|row| &row.option));
     let rows = rows.chain(dialect.statements.iter().map(|row| &row.option));
     let rows = rows.chain(dialect.behaviours.iter().map(|row| &row.option));
-    rows.filter_map(Option::as_deref).collect()
+    rows.filter_map(Option::as_deref).filter(|option| !option.starts_with(WITHOUT)).collect()
 }
+
+/// What stands before an option in a row of controls that do not have it.
+const WITHOUT: &str = "not.";
 
 /// A profile on its way over a table.
 pub(super) struct Overlay {
@@ -157,7 +160,10 @@ impl Overlay {
         let machine = self.profile.machine.map_or("mill", super::profile::Machine::name);
         let bought = self.profile.options.clone();
         let has = |option: &Option<String>| match (option, &bought) {
-            (Some(option), Some(bought)) => bought.contains(option),
+            (Some(option), Some(bought)) => match option.strip_prefix(WITHOUT) {
+                Some(other) => !bought.iter().any(|bought| bought == other),
+                None => bought.contains(option),
+            },
             _ => true,
         };
         let here = |of: &Option<String>, when: &Option<String>, option: &Option<String>| {

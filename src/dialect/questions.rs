@@ -232,6 +232,7 @@ questions! {
     CycleRepeatLetter "cycle.repeat.letter" OneOf(&["K", "L"]), "the letter by which the count of a drilling cycle is written, where the control reads two", if "said";
     CycleRunsWithoutAxes "cycle.runs.without.axes" YES, "a cycle's own block runs it even without a position";
     CycleRunsByDepth "cycle.runs.by.depth" YES, "a block with a new depth or retract plane alone runs the cycle in force";
+    CycleRunsByRotary "cycle.runs.by.rotary" YES, "a block with a word of a rotary axis alone runs the cycle in force", if "said";
     CycleStartsSpindle "cycle.starts.spindle" YES, "a drilling cycle starts a spindle that a tool change left standing, and a tap any that stands", if "said";
     CycleTapFeed "cycle.tap.feed" OneOf(&["feed", "lead", "unknown"]), "what the words of a tapping cycle mean: feed and speed, or speed and lead";
     TapRigid "tap.rigid" OneOf(&["always", "code", "unknown"]), "whether taps are rigid, so that the feed follows the spindle: always, or by a code before them alone", if "said";
@@ -288,6 +289,12 @@ questions! {
     MachineMoveRapid "machine.move.rapid" YES, "a move in machine coordinates is a rapid, whatever interpolation is in force", if "said";
     UnitsAgree "units.agree" YES, "a code for another unit than the control is set to is an alarm", if "said";
     MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";
+    LengthMoves "length.moves" YES, "a code of the tool length without a word of its axis moves the axis by the length", if "said";
+    ChangeRetracts "change.retracts" YES, "a tool change takes Z to the machine's zero first, wherever the program left it", if "said";
+    RotaryWay "rotary.way" OneOf(&["turns", "shortest", "sign", "unknown"]), "how a rotary axis goes to an absolute angle: turns and all, the shortest way to the place \
+                                                                              within one turn, or the way that the sign says", if "said";
+    RotaryFeed "rotary.feed" OneOf(&["degrees", "surface", "unknown"]), "what a feed per minute is where a rotary axis moves: degrees, or the way of the surface by a \
+                                                                         diameter that the control is told", if "said";
     ChangeLength "change.length" OneOf(&["kept", "cancelled", "unknown"]), "whether a tool change keeps the tool length in force, or cancels it until it is named again", if "op:tool.change";
     PositionLength "position.length" OneOf(&["added", "left.out", "unknown"]), "whether the present position and the touched one, read in the program's coordinates, hold the tool length too: the place of the spindle, or of the tip";
     CycleRWord "cycle.r.word" YES, "a word R beside a drilling cycle is the retract plane, as R0 is";
@@ -298,7 +305,7 @@ questions! {
     ShiftLocalIsExternal "shift.local.is.external" YES, "the local shift and the shift of all work offsets are one register", if "op:wcs.local";
     SetPositionEndsLocal "set.position.ends.local" YES, "a code that sets the position ends the local shift of its axes", if "op:wcs.local";
     SelectEndsSetPosition "select.ends.set.position" YES, "the choice of a work offset ends a position that was set", if "op:wcs.set.position";
-    EndClearsLocal "end.clears.local" YES, "the end of the program clears the local shift", if "behaviour:shift.local.is.external";
+    EndClearsLocal "end.clears.local" YES, "the end of the program clears the local shift", if "said";
     ReferenceAllAxes "reference.all.axes" YES, "a return to the reference position without axes moves all of them", if "op:reference.return";
     IntegerDivides "integer.divides" YES, "the quotient of two whole-number constants is cut to a whole number";
     SkipMidblock "skip.midblock" YES, "a block skip in mid-block skips the rest of the block";

@@ -62,8 +62,11 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     }
     machine.round_cycle(command, along, begins.is_some());
     machine.round_in(&across(command, along), trace);
-    let names = |axis: usize| axis != along;
-    let places = command.axes().any(|(axis, _)| names(axis)) || command.has(Op::CycleHere);
+    let in_plane = |axis: usize| axis == first || axis == second;
+    let by_others = command.axes().any(|(axis, _)| axis != along && !in_plane(axis));
+    let places = command.axes().any(|(axis, _)| in_plane(axis))
+        || command.has(Op::CycleHere)
+        || by_others && machine.rules.cycle_runs_by_rotary.ask(trace);
     let depths = command.word(Role::CycleR).is_some() || command.axes().any(|(axis, _)| axis == along);
     let rules = &machine.rules;
     let count = command.number(Role::Repeat).unwrap_or(1);

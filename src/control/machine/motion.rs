@@ -9,7 +9,7 @@ use crate::control::scenario::{AXES, Axes, Probe};
 use crate::control::trace::{EventKind, Position, Trace};
 
 /// The axis that tool lengths lie along.
-const LENGTH_AXIS: usize = 2;
+pub(super) const LENGTH_AXIS: usize = 2;
 
 /// The words for a corner, and whether they cut it off straight.
 const CORNERS: [(Role, bool); 2] = [(Role::CornerRadius, false), (Role::CornerChamfer, true)];
@@ -248,6 +248,7 @@ fn in_machine_coordinates(machine: &mut Machine, command: &Command, trace: &mut 
     }
     match machine.motion {
         Op::Rapid => machine.rapid_to(to, trace),
+        _ if machine.rules.machine_move_is_rapid => machine.rapid_to(to, trace),
         _ => machine.feed_to(to, trace),
     }
 }

@@ -140,6 +140,12 @@ pub struct Rules {
     pub reference_takes_all: Fact<bool>,
     pub length_after_reference: Fact<LengthAfter>,
     pub length_after_machine_move: Fact<LengthAfter>,
+    /// A move in machine coordinates is rapid under any interpolation.
+    pub machine_move_is_rapid: bool,
+    /// A code of the tool length without a word of Z moves Z by it.
+    pub length_moves: bool,
+    /// A word of a rotary axis alone runs the cycle in force.
+    pub cycle_runs_by_rotary: Fact<bool>,
     pub length_after_change: Fact<LengthAfter>,
     pub mirrors_about_word: Fact<bool>,
     pub positions_hold_length: Fact<bool>,
@@ -275,6 +281,10 @@ impl Rules {
                 length_after,
                 LengthAfter::Kept,
             ),
+            machine_move_is_rapid: control.is(Question::MachineMoveRapid),
+            length_moves: control.is(Question::LengthMoves),
+            cycle_runs_by_rotary: yes(control, Question::CycleRunsByRotary, true)
+                .or_silent(control, Question::CycleRunsByRotary),
             length_after_change: fact(control, Question::ChangeLength, length_after, LengthAfter::Kept)
                 .or_silent(control, Question::ChangeLength),
             positions_hold_length: fact(control, Question::PositionLength, word("added", "left.out"), false),

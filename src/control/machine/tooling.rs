@@ -1,5 +1,6 @@
 //! The tool, and compensation.
 
+use super::motion::LENGTH_AXIS;
 use super::rules::{LengthAfter, RadiusTable};
 use super::{Command, Machine};
 use crate::canon::{Op, Pause, Role};
@@ -87,7 +88,16 @@ fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     }
     let renewed = command.word(Role::LengthOffset).is_some() && machine.length_op != Op::LengthOff;
     if op.is_some() || renewed {
+        let before = machine.frame.length;
         apply_length(machine, trace);
+        if machine.rules.length_moves && command.word(Role::Z).is_none() {
+            let mut to = machine.position;
+            to[LENGTH_AXIS] += machine.frame.length - before;
+            match machine.motion {
+                Op::Rapid => machine.rapid_to(to, trace),
+                _ => machine.feed_to(to, trace),
+            }
+        }
     }
 }
 
@@ -234,6 +244,13 @@ impl Machine {
         match self.rules.radius_table.peek() {
             RadiusTable::Radius => tool.length,
             RadiusTable::Diameter => tool.length / 2.0,
+        }
+    }
+
+    /// Ends the local shift where the end of the program clears it.
+    pub fn end_local(&mut self, by: Op) {
+        if !matches!(by, Op::Return | Op::SubEnd) && self.rules.end_clears_local.peek() {
+            self.frame.local = [0.0; AXES];
         }
     }
 

@@ -40,7 +40,7 @@ Nothing needs to be done. If a letter of a message has no substitute, MG0507 say
 Read the text. If it means the variable, change it at the machine, or write `=` or `IS` after the name in the source."
 
     "0409" QualityDropped Note "a mode of quality is dropped"
-"The block sets how smoothly or how fast the control follows a path: advanced preview, AI contour control, accuracy. Such a mode moves the tool to no other place, beyond the tolerance that the control is set to, and no code of the target means the same. It is left out, and told once a program.
+"The block sets how smoothly or how fast the control follows a path: advanced preview, AI contour control, accuracy. Such a mode moves the tool to no other place, beyond the tolerance that the control is set to, and no code of the target means the same. It is left out, and told once a program. A limit on reading ahead is told so too, where the program reads and writes nothing that reading ahead could change.
 
 Nothing needs to be done for the shape of the part. Where surface or speed matter, choose the mode of the target by its own codes or settings."
 

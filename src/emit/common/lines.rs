@@ -233,6 +233,11 @@ impl<'p> Sheet<'p> {
             self.space();
             self.text.extend_from_slice(body);
         }
+        if self.line.kind == Kind::Words && self.text.len() - self.line.start > limit {
+            let tight = tight(self.text.get(self.line.start..).unwrap_or_default());
+            self.text.truncate(self.line.start);
+            self.text.extend_from_slice(&tight);
+        }
         let length = self.text.len() - self.line.start;
         if length > limit {
             self.refuse(
@@ -276,4 +281,24 @@ impl<'p> Sheet<'p> {
         }
         self.push('\n');
     }
+}
+
+/// The words of a line without the blanks that stand between a value and the letter of the next word. E stays apart: it
+/// may be read as an exponent.
+fn tight(line: &[u8]) -> Vec<u8> {
+    let (mut out, mut depth) = (Vec::with_capacity(line.len()), 0_u32);
+    for (at, sign) in line.iter().enumerate() {
+        match sign {
+            b'(' | b'[' => depth += 1,
+            b')' | b']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        let before = out.last().is_some_and(|sign: &u8| sign.is_ascii_digit() || matches!(sign, b'.' | b']'));
+        let behind = line.get(at + 1).is_some_and(|sign| sign.is_ascii_uppercase() && *sign != b'E');
+        let value = line.get(at + 2).is_some_and(|sign| !sign.is_ascii_alphabetic());
+        if depth > 0 || *sign != b' ' || !(before && behind && value) {
+            out.push(*sign);
+        }
+    }
+    out
 }

@@ -1,9 +1,10 @@
 //! Waiting for the moves, and how far a control reads ahead.
 //!
 //! Law: a statement that waits until all moves are done is needed only where the target runs macro
-//! statements early; there, reading ahead is limited to the least and empty blocks hold it back. Where the
-//! target has no such limit, none is set. Both change when a value is read or an output is switched,
-//! never what is computed; hence review diagnostics. Side condition: no cutter compensation is in force, under which the
+//! statements early; there, a block that stops reading ahead stands for it where the target has one; else reading ahead is
+//! limited to the least and empty blocks hold it back. Where the target has no such limit, none is set. Both change when a
+//! value is read or an output is switched, never what is computed; hence review diagnostics. A limit in a program that
+//! reads no state of the machine is dropped with a note. Side condition: no cutter compensation is in force, under which the
 //! target takes no limit; where the library compensates, the limit is taken off again after the empty blocks.
 
 use crate::assume::Predicate;
@@ -11,7 +12,9 @@ use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
 use crate::ir::analysis::modal_facts::replace_statements;
-use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::ir::{
+    Block, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
+};
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
@@ -25,6 +28,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let waits = context.target.statement("wait").is_some();
     let limits = context.target.code_for(Op::LimitLookahead, &BTreeMap::new()).is_some();
     let early = context.target.is(Question::LookaheadRunsEarly);
+    let stops = context.target.statement("lookahead.stop").is_some();
+    let reads: Vec<bool> = module.programs.iter().map(reads_state).collect();
     let compensates = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(compensates);
     let mut entry = context.entry.clone();
     // Programs start without compensation: only what one begins may be in force.
@@ -36,6 +41,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
         let span = stmt.site.span;
         match stmt.kind {
+            StmtKind::Sync if !waits && stops && early && holds(out) => {
+                out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
+            }
+            StmtKind::Sync if !waits && stops && early => {
+                say_stop(index, compensates.then_some(&*state), span, context);
+                out.push(Stmt {
+                    kind: StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::MachineOnce)] }),
+                    site: stmt.site,
+                });
+            }
             StmtKind::Sync if !waits && limits && early => {
                 say_limit(index, compensates.then_some(&*state), span, context);
                 limit(stmt.site, compensates, out);
@@ -45,9 +60,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
             }
             StmtKind::LimitLookahead(_) if !limits => {
-                let what = "the limit on reading ahead is dropped: the target has none, so the blocks after it \
-                     may read inputs and switch outputs early";
-                let told = Diagnostic::new(Code::Conditional, span, what);
+                let told = match reads.get(index) {
+                    Some(false) => Diagnostic::new(Code::QualityDropped, span, UNREAD),
+                    _ => {
+                        let what = "the limit on reading ahead is dropped: the target has none, so the blocks after it \
+                             may read inputs and switch outputs early";
+                        Diagnostic::new(Code::Conditional, span, what).asked_once()
+                    }
+                };
                 context.add_once(
                     index,
                     "lookahead",
@@ -59,6 +79,45 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
     });
     module.programs.iter_mut().flat_map(|p| &mut p.blocks).for_each(|block| _ = drop_emptied(block));
+}
+
+const UNREAD: &str = "the limit on reading ahead is dropped: the target has none, and nothing in this program reads or writes what reading \
+     ahead could change";
+
+/// True where the last block with words before this place stops reading ahead: nothing has moved since.
+fn holds(out: &Stmts) -> bool {
+    let words = |stmt: &Stmt| stmt.kind.nc().filter(|nc| !nc.items.is_empty()).cloned();
+    let calls = out.iter().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
+    !calls && out.iter().rev().find_map(words).is_some_and(|nc| nc.items == [NcItem::Op(Op::MachineOnce)])
+}
+
+/// True where a program reads or writes state of the machine, or calls what may.
+fn reads_state(program: &Program) -> bool {
+    let mut reads = false;
+    let mut look = |e: &Expr| e.walk(&mut |e| reads |= matches!(e, Expr::System(..) | Expr::Indirect(..)));
+    for block in &program.blocks {
+        block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut look));
+        block.term.kind.exprs(&mut look);
+    }
+    let writes = |stmt: &Stmt| {
+        matches!(stmt.kind.target(), Some(Place::System(..) | Place::Indirect(..)))
+            || matches!(stmt.kind, StmtKind::ModalCall(_) | StmtKind::Sync | StmtKind::Output(_))
+    };
+    let calls = |block: &Block| matches!(block.term.kind, TermKind::Call { .. });
+    reads || program.blocks.iter().any(|block| calls(block) || block.stmts.iter().any(writes))
+}
+
+/// Says that the block which stops reading ahead is no block for cutter compensation.
+fn say_stop(index: usize, state: Option<&Modal>, span: Span, context: &mut Context<'_>) {
+    let Some(state) = state.filter(|state| state.op(Group::RadiusComp) != Some(Op::RadiusOff)) else {
+        return;
+    };
+    let is_on = state.op(Group::RadiusComp).is_some();
+    let what = "a wait for the moves where cutter compensation may be in force: the block that stops the target's reading \
+                ahead would lift it there";
+    let help = "put the wait before the compensation begins, or after it ends";
+    let code = if is_on { Code::NoEquivalent } else { Code::Conditional };
+    context.add_once(index, what, Diagnostic::new(code, span, what).with_help(help));
 }
 
 fn compensates(stmt: &Stmt) -> bool {

@@ -6,7 +6,7 @@
 //! block that defines the cycle nothing need be added where that block runs the cycle anyway. A block that defines a
 //! cycle without a position runs it where the tool stands or only stores it: the target is told by a place, or by a
 //! repeat of none, where the two controls do not agree. So is a block that names a new depth or plane alone for the cycle
-//! in force.
+//! in force, and one with a word of a rotary axis alone.
 //! Under a rotation the present place would be turned once more; there the block gets the words that
 //! last named the place, where they still have their values.
 //! Side condition: absolute or incremental is known; the cycle's planes stay what they are.
@@ -31,7 +31,10 @@ struct Bare {
 
 impl Bare {
     fn of(question: Question, source: &Control, target: &Control) -> Self {
-        let answer = |control: &Control| control.behaviour(question).map(|row| row.value.clone());
+        // A control whose table is silent of it takes a rotary axis for a place.
+        let silent = (question == Question::CycleRunsByRotary).then(|| "true".to_owned());
+        let answer =
+            |control: &Control| control.behaviour(question).map(|row| row.value.clone()).or(silent.clone());
         let (ours, theirs) = (answer(source), answer(target));
         let drills = ours.as_deref() == Some("true");
         Self { question, agree: ours == theirs || !drills && theirs.as_deref() == Some("false"), drills }
@@ -42,7 +45,7 @@ impl Bare {
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let native = context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some();
     let facts = context.modal_facts(module);
-    let bare_ones = [Question::CycleRunsWithoutAxes, Question::CycleRunsByDepth]
+    let bare_ones = [Question::CycleRunsWithoutAxes, Question::CycleRunsByDepth, Question::CycleRunsByRotary]
         .map(|question| Bare::of(question, context.source, context.target));
     if native && bare_ones.iter().all(|bare| bare.agree) {
         return;
@@ -74,12 +77,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let across = across(state.op(Group::Plane));
                 let placed = across.iter().any(|(role, _)| nc.word(*role).is_some());
                 let span = stmt.site.span;
-                let bare = (defines || tells)
+                let turns = (defines || state.op(Group::Cycle).is_some_and(Op::is_cycle)) && tells_turn(nc);
+                let bare = (defines || tells || turns)
                     && !nc.has(Op::CycleHere)
                     && !here
                     && !placed
                     && nc.word(Role::Repeat).is_none();
-                let Bare { question, agree, drills } = bare_ones[usize::from(!defines)];
+                let Bare { question, agree, drills } =
+                    bare_ones[if turns { 2 } else { usize::from(!defines) }];
                 let asked = here || bare && !agree;
                 if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
                     let what = "the plane is not known here, so neither is the axis that the cycle drills along: \
@@ -88,12 +93,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     continue;
                 }
                 if bare && !context.source.is_same_machine(context.target) {
-                    context.rests_on_source(index, span, question);
-                    if agree {
+                    let has = |control: &Control| !turns || control.behaviour(question).is_some();
+                    if has(context.source) {
+                        context.rests_on_source(index, span, question);
+                    }
+                    if agree && has(context.target) {
                         context.rests_on_target(index, span, question);
                     }
                 }
                 let here = here || bare && drills && !agree;
+                if turns && bare && !drills && !agree {
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, TURNS));
+                    continue;
+                }
                 let what = if bare && !drills && !agree {
                     nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
                     Some(
@@ -126,8 +138,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                         continue;
                     }
-                    place(nc, across, state.op(Group::Distance), (stands, words)).err().or((!defines)
-                        .then_some("the cycle runs where the tool stands: the block names that position"))
+                    let stands = stands.filter(|_| !turns || words.is_none());
+                    place(nc, across, state.op(Group::Distance), (stands, words))
+                        .err()
+                        .or((!defines && !turns)
+                            .then_some("the cycle runs where the tool stands: the block names that position"))
                 } else {
                     None
                 };
@@ -139,6 +154,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+}
+
+const TURNS: &str = "a rotary axis turns alone while a drilling cycle is in force: the source drills nothing there, and the target does: end \
+     the cycle (G80) before it";
+
+/// True where a block turns a rotary axis. Codes that take the word for themselves do not.
+fn tells_turn(nc: &Nc) -> bool {
+    let aside = nc.ops().any(|op| op.takes_axes() || op == Op::MachineOnce || op.group() == Group::Motion);
+    let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::CycleOff));
+    !aside && !returns && [Role::A, Role::B, Role::C].iter().any(|role| nc.word(*role).is_some())
 }
 
 /// True where a block names the depth or the retract plane of a cycle. Codes that take the word for themselves are none.

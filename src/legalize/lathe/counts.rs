@@ -109,7 +109,7 @@ fn all(
     let chosen = |block: &Block| {
         block.stmts.iter().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if has(nc, roles)))
     };
-    each(module, context, TEXTS, chosen, &mut |kind, units| match kind {
+    each(module, context, Some(TEXTS), chosen, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
             NcItem::Word(role, value) if roles.contains(role) => {
                 let made = changed(value, units, counts(target, *role), target);

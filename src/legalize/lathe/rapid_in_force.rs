@@ -1,9 +1,9 @@
-//! Moves in machine coordinates on a lathe that goes there only by the rapid traverse in force.
+//! Moves in machine coordinates on a machine that goes there by the interpolation in force.
 //!
 //! Law: such a move is a rapid on the source whatever interpolation is in force, and leaves that alone. So where another one is in
-//! force, or it is not known which, the target's block has the code of the rapid too, and the interpolation that was in force is
-//! said again, unless the next block that moves says its own. Side condition: it is known, and is the straight feed. Counter-example: the
-//! move between two blocks of a modal pass.
+//! force, or it is not known which, the target's block has the code of the rapid too, in the place of one that it has, and the
+//! interpolation that was in force is said again, unless the next block that moves says its own. Side condition: it is known, and is
+//! the straight feed. Counter-example: the move between two blocks of a modal pass.
 
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
@@ -12,10 +12,10 @@ use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKin
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
-/// True where the target is such a lathe, and the library moves so.
+/// True where the target is such a machine, and the library moves so. A mill is, where only the source's moves are rapid.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let rapid = context.target.behaviour(Question::MachineMoveRapid);
-    context.target.machine() == Machine::Lathe
+    (context.target.machine() == Machine::Lathe || context.source.is(Question::MachineMoveRapid))
         && features.op(Op::MachineOnce)
         && rapid.is_some_and(|row| row.value == "false")
 }
@@ -23,6 +23,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Writes the code of the rapid; true where it was missing.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
+    let is_mill = context.target.machine() == Machine::Mill;
     let (mut changed, mut found) = (false, Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
@@ -37,15 +38,27 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 state.step(stmt);
                 let mut stmt = stmt.clone();
                 let own = |nc: &Nc| nc.ops().any(|op| op.group() == Group::Motion);
-                let lacks = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::MachineOnce) && !own(nc));
-                if !lacks || before == Some(Op::Rapid) {
+                let moves =
+                    matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::MachineOnce) && nc.names_axis());
+                let own = stmt.kind.nc().is_some_and(own);
+                let lacks = if own {
+                    is_mill && state.op(Group::Motion) != Some(Op::Rapid)
+                } else {
+                    before != Some(Op::Rapid)
+                };
+                if !moves || !lacks {
                     block.stmts.push(stmt);
                     continue;
                 }
                 changed = true;
+                let before = if own { state.op(Group::Motion) } else { before };
                 let span = stmt.site.span;
+                if is_mill {
+                    context.rests_on_source(index, span, Question::MachineMoveRapid);
+                }
                 let site = SourceInfo { span, skip: stmt.site.skip, ..SourceInfo::default() };
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    nc.items.retain(|item| !matches!(item, NcItem::Op(op) if op.group() == Group::Motion));
                     let once = nc.items.iter().position(|item| *item == NcItem::Op(Op::MachineOnce));
                     nc.items.insert(once.map_or(0, |once| once + 1), NcItem::Op(Op::Rapid));
                 }

@@ -3,6 +3,7 @@
 //! Law: n increments are `n * increment` of the unit in force, for an angle of a degree. Side condition: the unit is known, from the
 //! text or from a machine profile (a program that is called from both units has none); else the number keeps its form only where both controls count alike.
 //! A program that names one unit is taken to be in it after what it calls, where nothing of that can leave another.
+//! Where no source says what the target counts, a number gets its point all the same if the unit is known.
 //! Counter-example: `G#1`, which puts back the unit of the caller.
 
 use crate::canon::{Group, Op, Role};
@@ -33,7 +34,23 @@ const TEXTS: Texts = Texts {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let (source, target) = (context.source, context.target);
     let keeps = |local: u32| kept_by(local, source, target);
-    each(module, context, TEXTS, counts, &mut |kind, units| match kind {
+    // With a point a number rests on the source alone; without a unit it stays as it is.
+    let asked = target.machine() == Machine::Mill
+        && source.name() != target.name()
+        && !target.numbers().origin.is_settled()
+        && target.profile().decimal_point.is_none();
+    let mut given = false;
+    if asked && target.bare_length() == BareLength::Increments && same_increments(source, target) {
+        given = each(module, context, None, counts, &mut |kind, units| match kind {
+            Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
+                NcItem::Word(Role::Feed, _) => true,
+                NcItem::Word(role, value) => convert(value, role.is_angle(), units, source),
+                _ => true,
+            }),
+            _ => true,
+        });
+    }
+    let changed = each(module, context, Some(TEXTS), counts, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
             NcItem::Word(role, value) => word(value, *role, units, source, target),
             _ => true,
@@ -41,7 +58,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         Counted::Stmt(StmtKind::ModalCall(call)) => arguments(call, units, source, keeps),
         Counted::Call(call) => arguments(call, units, source, keeps),
         Counted::Stmt(_) => true,
-    })
+    });
+    given || changed
 }
 
 /// Converts those of the arguments of modal calls: they count in the unit where the call is opened, and
@@ -49,7 +67,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 pub(in crate::legalize) fn of_modal_calls(module: &mut Module, context: &mut Context<'_>) {
     let source = context.source;
     let modal = |block: &Block| block.stmts.iter().any(|s| matches!(s.kind, StmtKind::ModalCall(_)));
-    each(module, context, TEXTS, modal, &mut |kind, units| match kind {
+    each(module, context, Some(TEXTS), modal, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::ModalCall(call)) => arguments(call, units, source, |_| false),
         _ => true,
     });
@@ -71,11 +89,12 @@ impl Counted<'_> {
 }
 
 /// Takes what stands in the chosen blocks through `convert`, with the unit that is known there; what it cannot
-/// convert is reported once a program. True where there are such blocks.
+/// convert is reported once a program. Without texts it stays as it is, and so does what rests on a program that the library
+/// has not. True where there are such blocks.
 pub(in crate::legalize) fn each(
     module: &mut Module,
     context: &mut Context<'_>,
-    texts: Texts,
+    texts: Option<Texts>,
     chosen: impl Fn(&Block) -> bool,
     convert: &mut dyn FnMut(Counted<'_>, Option<Units>) -> bool,
 ) -> bool {
@@ -96,6 +115,7 @@ pub(in crate::legalize) fn each(
                 return;
             }
             let guess = guesses.as_ref().and_then(|guesses| guesses.at(place)).or(machine);
+            let guess = guess.filter(|_| texts.is_some() || !left[index].outside);
             if guess.is_some() && convert(counted, guess) {
                 guessed.get_or_insert(span);
             } else {
@@ -110,6 +130,7 @@ pub(in crate::legalize) fn each(
                 take(Counted::Call(call), (id, block.stmts.len()), block.term.site.span);
             }
         }
+        let Some(texts) = texts else { continue };
         report(index, texts, unknown, guessed.filter(|_| left[index].outside), context);
     }
     true

@@ -6,6 +6,7 @@ pub(in crate::legalize) mod home;
 pub(in crate::legalize) mod increments;
 pub(in crate::legalize) mod inverse_feeds;
 pub(in crate::legalize) mod joined;
+pub(in crate::legalize) mod machine_feeds;
 pub(in crate::legalize) mod machine_moves;
 mod mains;
 pub(in crate::legalize) mod polar;

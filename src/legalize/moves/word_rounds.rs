@@ -32,7 +32,7 @@ const NEAR: &str = "ROUND in a word, by arithmetic: a half within the last digit
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let numbers = context.source.numbers();
     let first: Vec<Option<Span>> = module.programs.iter().map(first_round).collect();
-    let changed = each(module, context, TEXTS, rounds, &mut |counted, units| match counted {
+    let changed = each(module, context, Some(TEXTS), rounds, &mut |counted, units| match counted {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
             NcItem::Word(role, value) => word(value, *role, units, numbers),
             _ => true,

@@ -6,7 +6,7 @@ use super::moves::MOVES;
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
-use crate::legalize::assumptions::{facts, runtime};
+use crate::legalize::assumptions::{changes, facts, runtime, shop};
 use crate::legalize::calls::{
     chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
     text_returns,
@@ -55,7 +55,6 @@ pub const GROUPS: &[Group] = &[
     Group { name: "layout", heading: "Numbers of blocks and programs", passes: LAYOUT },
 ];
 
-// These run twice or more.
 const FOLD: Pass = Pass::tidies(&Fold, "fold", "values that can be computed here are computed");
 const RETARGET: Pass = Pass::tidies(
     &Retarget,
@@ -175,6 +174,10 @@ const SOURCE: &[Pass] = &[
         .when(arc_starts::concerns),
     Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
         .when(first_increments::concerns),
+    Pass::reports("shop-facts", "reports what parameters of the machines decide", shop::run)
+        .when(shop::concerns),
+    Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
+        .when(changes::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];
@@ -372,7 +375,6 @@ const CODES: &[Pass] = &[
     Pass::each("machine-codes", "a block has no more M codes than the target takes", machine_codes::run)
         .when(machine_codes::concerns)
         .needs(&["substitutes", "beside-moves", "pauses"]),
-    // What is left without a row in the target's table is refused.
     Pass::each("missing", "refuses operations that the target has no code for", missing::run)
         .when(missing::concerns)
         .needs(&[

@@ -6,12 +6,12 @@ use crate::canon::{Op, Role};
 use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn_feeds};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
-    bare_arcs, home, increments, inverse_feeds, machine_moves, polar, rapid_once, reference, rotations,
-    shaped, shift, short_arcs, unit_agrees, unit_checks, units, word_rounds,
+    bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar, rapid_once, reference,
+    rotations, shaped, shift, short_arcs, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
-    active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
-    table_writes, tool_lengths,
+    active_offsets, external, kept_length, kept_radius, left_shifts, length_radius, radius_words,
+    set_position, table_writes, tool_lengths,
 };
 
 pub(super) const MOVES: &[Pass] = &[
@@ -29,6 +29,15 @@ pub(super) const MOVES: &[Pass] = &[
         .when(set_position::concerns),
     Pass::edits("external", "shifts that share a register on one control are kept apart", external::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
+    Pass::edits(
+        "left-shifts",
+        "local shifts end where the source's end of the program ends them",
+        left_shifts::run,
+    )
+    .when(left_shifts::concerns)
+    .needs(&["external"]),
+    Pass::reports("machine-feeds", "refuses moves in machine coordinates that feed", machine_feeds::run)
+        .when(machine_feeds::concerns),
     Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)

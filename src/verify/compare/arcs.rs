@@ -10,9 +10,10 @@ const CENTRES: f64 = 1e-4;
 /// By how many roundings of their words they may lie farther apart.
 const ROUNDINGS: f64 = 2.0;
 
-/// Joins the pieces of arcs.
-pub fn joined(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+/// Joins the pieces of arcs. Of a run that was `cut` off it is not known how far its last arc would have gone.
+pub fn joined(acts: Vec<Act<'_>>, cut: bool) -> Vec<Act<'_>> {
     let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
+    let mut pieces = 0;
     for act in acts {
         let whole = out.last().and_then(|last| {
             both(&last.what, &act.what, CENTRES + ROUNDINGS * last.rounded.max(act.rounded))
@@ -21,9 +22,16 @@ pub fn joined(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
             (Some(whole), Some(last)) => {
                 last.what = What::other(whole);
                 last.rounded = last.rounded.max(act.rounded);
+                pieces += 1;
             }
-            _ => out.push(act),
+            _ => {
+                out.push(act);
+                pieces = 1;
+            }
         }
+    }
+    if cut && pieces > 1 {
+        out.pop();
     }
     out
 }

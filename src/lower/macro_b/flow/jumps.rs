@@ -176,6 +176,9 @@ impl<'a> Lowering<'a> {
         };
         let then = self.target(number, site.span);
         let cond = Cond::Compare(Relation::Equal, input, Expr::Number(0.0));
+        // The code looks when the moves before it are done; a comparison may be worked out before.
+        let early = SourceInfo { comments: Default::default(), ..site.clone() };
+        self.builder.push(StmtKind::Sync, early);
         self.builder.end_then(site.clone(), |otherwise| TermKind::Branch {
             cond: Box::new(cond),
             then,

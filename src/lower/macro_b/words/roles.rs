@@ -204,7 +204,9 @@ impl<'a> Lowering<'a> {
         if let Some(what) = not_converted(word, codes, in_force) {
             return self.findings.not_understood(span, what);
         }
-        let beside = match codes.first() {
+        // A code that acts in its block alone is the one that takes words of its own.
+        let own = codes.iter().find(|(_, row)| row.op.group() == Group::OneShot || row.op.is_cycle());
+        let beside = match own.or(codes.first()) {
             Some((_, row)) => format!(" beside {}", row.code),
             None => " in a block without a code".into(),
         };

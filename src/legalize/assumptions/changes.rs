@@ -1,0 +1,137 @@
+//! Tool changes that take Z to the machine's zero by themselves.
+//!
+//! A program rests on it where it goes on after a tool change before it has placed Z, and did not take Z to its zero before
+//! the change. Side conditions: a move of Z alone in absolute coordinates places it; what is not known is taken to rest on it.
+//! Counter-example: `G1 Z-10.`, `T2 M6`, `G0 X50.`, which crosses the part where the change leaves Z alone.
+
+use super::shop::{are_mills, rests};
+use crate::canon::{Group, Op, Role, Sys};
+use crate::dialect::{Control, Question};
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::over_calls::{Follow, OverCalls};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, Stmt};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal, ModalFacts};
+
+/// True if the library changes tools, between two mills whose tables both say something of it.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let says = |control: &Control| control.behaviour(Question::ChangeRetracts).is_some();
+    are_mills(context) && features.op(Op::ToolChange) && says(context.source) && says(context.target)
+}
+
+/// Says where programs rest on it.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    let heights = Heights { facts: &facts };
+    let known = OverCalls::of(module, &heights);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let Some(height) = known.at(index, id) else { continue };
+            let (mut height, mut state) = (*height, facts.at(index, id));
+            for stmt in &block.stmts {
+                if step(stmt, &mut state, &mut height) {
+                    rests(Question::ChangeRetracts, index, stmt.site.span, context);
+                }
+            }
+            let mut reads = false;
+            block.term.kind.exprs(&mut |e| reads |= reads_height(e));
+            if reads && height.changed {
+                rests(Question::ChangeRetracts, index, block.term.site.span, context);
+            }
+        }
+    }
+}
+
+/// What is known of the height of the tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Height {
+    /// On some way a tool change may have moved Z, and nothing has placed it since.
+    changed: bool,
+    /// On every way the program took Z to its zero, and has not moved it since.
+    home: bool,
+}
+
+impl Lattice for Height {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined = Self { changed: self.changed || other.changed, home: self.home && other.home };
+        std::mem::replace(self, joined) != joined
+    }
+}
+
+struct Heights<'f> {
+    facts: &'f ModalFacts,
+}
+
+impl Follow for Heights<'_> {
+    type Known = Height;
+
+    fn outside(&self, _: usize) -> Height {
+        Height { changed: false, home: false }
+    }
+
+    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, height: &mut Height) {
+        let mut state = self.facts.at(index, id);
+        for stmt in &block.stmts {
+            step(stmt, &mut state, height);
+        }
+    }
+
+    fn lose(&self, height: &mut Height) {
+        height.home = false;
+    }
+}
+
+/// Takes a statement; true where it rests on where a tool change left Z.
+fn step(stmt: &Stmt, state: &mut Modal, height: &mut Height) -> bool {
+    state.step(stmt);
+    let before = *height;
+    let mut reads = false;
+    stmt.kind.exprs(&mut |e| reads |= reads_height(e));
+    let Some(nc) = stmt.kind.nc() else { return reads && before.changed };
+    let rests = moved(nc, state, height);
+    if nc.has(Op::ToolChange) {
+        height.changed = !height.home;
+    }
+    if stmt.site.skip.is_some() {
+        height.join(&before);
+    }
+    before.changed && (reads || rests)
+}
+
+/// Takes the moves of a block; true where they depend on the height from before.
+fn moved(nc: &Nc, state: &Modal, height: &mut Height) -> bool {
+    let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home));
+    let (z, names) = (nc.word(Role::Z).is_some(), nc.names_axis());
+    if (returns || nc.has(Op::MachineOnce)) && (z || returns && !names) {
+        *height = Height { changed: false, home: true };
+        return false;
+    }
+    if nc.has(Op::SetPosition) {
+        return z;
+    }
+    if !names || nc.ops().any(Op::takes_axes) {
+        return false;
+    }
+    let others = nc
+        .items
+        .iter()
+        .any(|item| matches!(item, crate::ir::NcItem::Word(role, _) if role.is_axis() && *role != Role::Z));
+    let places = z && state.op(Group::Distance) == Some(Op::Absolute);
+    *height = Height { changed: height.changed && !places, home: height.home && !z };
+    !places || others
+}
+
+/// True where an expression reads a place along Z.
+fn reads_height(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |e| {
+        if let Expr::System(
+            Sys::AxisPosition | Sys::EndPosition | Sys::WorkPosition | Sys::MachinePosition,
+            axis,
+        ) = e
+        {
+            found |= axis.first().and_then(Expr::constant).is_none_or(|axis| axis == 3.0);
+        }
+    });
+    found
+}

@@ -1,0 +1,138 @@
+//! What parameters of a machine decide: whether a code of the tool length moves its axis, and how a rotary axis goes.
+//!
+//! Nothing is changed. A question is asked where a program shows the difference, and a program is refused where the two
+//! controls are known to differ. Side conditions: a length that is in force already, none that is ended, and one that a
+//! return along Z ended move nothing; a feed of inverse time is the same for all axes. Counter-example: `G43 H1`, `X5.`, which
+//! crosses the part at another height where the code alone has moved Z.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Machine, Question, Side};
+use crate::ir::analysis::modal::Ways;
+use crate::ir::{Expr, Module, Nc, NcItem};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal, Setting};
+use crate::text::Span;
+
+/// True if the library names tool lengths, or moves rotary axes, between two mills.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    are_mills(context)
+        && (features.any_op(|op| op.group() == Group::LengthComp)
+            || [Role::A, Role::B, Role::C, Role::LengthOffset].into_iter().any(|role| features.role(role)))
+}
+
+/// True for two mills that are not one and the same.
+pub(super) fn are_mills(context: &Context<'_>) -> bool {
+    [context.source, context.target].iter().all(|control| control.machine() == Machine::Mill)
+        && !context.source.is_same_machine(context.target)
+}
+
+/// Says what programs rest on.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                let span = stmt.site.span;
+                let before = stmt.kind.nc().filter(|nc| names_length(nc)).map(|_| state.clone());
+                state.step(stmt);
+                let Some(nc) = stmt.kind.nc() else { continue };
+                if before.is_some_and(|before| moves_by_code(nc, &before)) {
+                    rests(Question::LengthMoves, index, span, context);
+                }
+                rotary(nc, &state, index, span, context);
+            }
+        }
+    }
+}
+
+fn names_length(nc: &Nc) -> bool {
+    nc.word(Role::LengthOffset).is_some() || nc.ops().any(|op| op.group() == Group::LengthComp)
+}
+
+/// True where a block changes the tool length and has no word of Z.
+fn moves_by_code(nc: &Nc, before: &Modal) -> bool {
+    if nc.word(Role::Z).is_some() {
+        return false;
+    }
+    let lost = before.length_lost;
+    let gone = lost.by_reference == Ways::Every || lost.by_machine_move == Ways::Every;
+    let row = nc.word(Role::LengthOffset).map(|row| row.constant().map(|row| row as u32));
+    let begins = nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
+    let in_force = before.of(Group::LengthComp);
+    let is_off = matches!(in_force, Setting::Known(Op::LengthOff, _));
+    let may_be = !is_off && before.names_length() && !gone;
+    match row {
+        _ if nc.has(Op::LengthOff) => may_be,
+        Some(Some(0)) => may_be,
+        // The same row again.
+        Some(Some(row)) => match in_force {
+            Setting::Known(op, Some(there)) if there == row && !gone => begins && !nc.has(op),
+            _ => begins || !is_off,
+        },
+        Some(None) => begins || !is_off,
+        None => begins && (gone || !matches!(in_force, Setting::Known(op, _) if nc.has(op))),
+    }
+}
+
+/// What a word of a rotary axis rests on.
+fn rotary(nc: &Nc, after: &Modal, index: usize, span: Span, context: &mut Context<'_>) {
+    let is_rotary = |role: Role| matches!(role, Role::A | Role::B | Role::C);
+    let words = || {
+        nc.items.iter().filter_map(|item| match item {
+            NcItem::Word(role, value) if is_rotary(*role) => Some(value),
+            _ => None,
+        })
+    };
+    let aside = nc.ops().any(|op| op.takes_axes() || op == Op::ReferenceReturn || op == Op::Reference2);
+    if aside || words().next().is_none() {
+        return;
+    }
+    let within_turn =
+        |value: &Expr| degrees(value, context.source).is_some_and(|a| (0.0..=360.0).contains(&a));
+    if after.op(Group::Distance) != Some(Op::Incremental) && !words().all(within_turn) {
+        rests(Question::RotaryWay, index, span, context);
+    }
+    let feeds = after.op(Group::Motion).is_some_and(|op| op != Op::Rapid) && !nc.has(Op::RapidOnce);
+    let drills = after.op(Group::Cycle).is_some_and(Op::is_cycle);
+    if feeds && !drills && after.op(Group::FeedMode) != Some(Op::FeedInverse) {
+        rests(Question::RotaryFeed, index, span, context);
+    }
+}
+
+/// The angle of a word, where it is a number.
+fn degrees(value: &Expr, control: &Control) -> Option<f64> {
+    match value {
+        Expr::Negate(inner) => degrees(inner, control).map(|angle| -angle),
+        Expr::Increments(count) => Some(count * control.numbers().increment_degrees),
+        value => value.constant(),
+    }
+}
+
+/// Asks a question, first of the control whose table has no answer; refuses where the answers are known to differ. A control
+/// whose table is silent is like most others.
+pub(super) fn rests(question: Question, index: usize, span: Span, context: &mut Context<'_>) {
+    let open = |control: &Control| control.behaviour(question).is_some_and(|row| row.value == "unknown");
+    let [ours, theirs] =
+        [context.source, context.target].map(|control| control.behaviour(question).is_some());
+    let any_open = open(context.source) || open(context.target);
+    let sides = [(Side::Source, ours, open(context.source)), (Side::Target, theirs, open(context.target))];
+    for (side, has_row, is_open) in sides {
+        match side {
+            _ if !has_row || any_open && !is_open => {}
+            Side::Source => context.rests_on_source(index, span, question),
+            Side::Target => context.rests_on_target(index, span, question),
+        }
+    }
+    let moves = |control: &Control| control.is(question);
+    if question == Question::LengthMoves && ours != theirs && moves(context.source) != moves(context.target) {
+        let finding = Diagnostic::new(Code::NoEquivalent, span, MOVES);
+        return context.add_once(index, MOVES, finding.with_help(NAME_Z));
+    }
+    context.must_agree(index, span, question);
+}
+
+const MOVES: &str = "a code of the tool length without Z: one of the two controls moves Z by the length here";
+
+const NAME_Z: &str = "write Z into the block of the code";
