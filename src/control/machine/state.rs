@@ -107,9 +107,6 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
     }
 }
 
-/// What a rotation without its angle and a scaling without its factor take from a setting is not known.
-const FROM_SETTING: &str = "machine:shape.from.setting";
-
 fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let (first, second, _) = machine.plane.axes();
     machine.unturned = machine.frame.program(&machine.position);
@@ -121,7 +118,7 @@ fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     }
     let angle = command.word(Role::Angle);
     if angle.is_none() {
-        trace.doubt(FROM_SETTING);
+        trace.doubt("machine:shape.from.setting");
     }
     let angle = angle.unwrap_or(0.0);
     let degrees = if machine.rules.rotation_is_ccw.ask(trace) { angle } else { -angle };
@@ -143,7 +140,7 @@ fn scale(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         *own = command.word(role).unwrap_or(factor);
     }
     if command.word(Role::Scale).is_none() && factors == [1.0; AXES] {
-        trace.doubt(FROM_SETTING);
+        trace.doubt("machine:shape.from.setting");
     }
     machine.frame.scale = Some((factors, centre));
 }
