@@ -12,8 +12,9 @@ use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::{Assigned, Constant, Ranges, Values};
-use crate::ir::{BlockId, Expr, Module, NcItem, StmtKind};
+use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
 use crate::legalize::Context;
+use crate::legalize::by_program::look_at_each;
 use crate::legalize::features::Feature;
 use crate::text::Span;
 use std::cell::LazyCell;
@@ -21,37 +22,17 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let summaries = LazyCell::new(|| context.summaries(module));
-    let rounds =
-        [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
+    let shared = &*context;
+    let all = look_at_each(module, |index, program| {
+        let has_any = shared.may_concern(index, |features| features.has(Feature::Code));
+        has_any.then(|| look(program, module, shared)).unwrap_or_default()
+    });
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     // Programs with words beside such a code: a code that both have may take them otherwise.
     let mut worded: BTreeSet<(usize, char)> = BTreeSet::new();
-    for (index, program) in module.programs.iter().enumerate() {
-        if !context.may_concern(index, |features| features.has(Feature::Code)) {
-            continue;
-        }
-        let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
-        let ranges = LazyCell::new(|| Ranges::of_constants_and_codes(program, &summaries));
-        for (id, block) in program.ids().zip(&program.blocks) {
-            for (at, stmt) in block.stmts.iter().enumerate() {
-                let StmtKind::Nc(nc) = &stmt.kind else { continue };
-                for item in &nc.items {
-                    if let NcItem::Code(letter, value) = item {
-                        let listed = numbers(value, &assigned, id, at, context.source);
-                        let mut numbers = listed.or_else(|| counted(&ranges.at(id, at, value)));
-                        if rounds && value.constant().is_none() {
-                            numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
-                        }
-                        let finding = check(*letter, numbers, context.source, context.target);
-                        if finding.is_some() && nc.items.iter().any(|item| matches!(item, NcItem::Word(..))) {
-                            worded.insert((index, *letter));
-                        }
-                        found.extend(finding.map(|finding| (index, stmt.site.span, (*letter, finding))));
-                    }
-                }
-            }
-        }
+    for (index, met) in all.into_iter().enumerate() {
+        worded.extend(met.iter().filter(|met| met.worded).map(|met| (index, met.letter)));
+        found.extend(met.into_iter().map(|met| (index, met.span, (met.letter, met.finding))));
     }
     let mut letters: BTreeMap<char, Letter> = BTreeMap::new();
     for (index, span, (letter, finding)) in &found {
@@ -126,6 +107,43 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         };
         context.add_once(*index, &what, told);
     }
+}
+
+/// A code that is known by its number, of which something is to be said.
+struct Met {
+    span: Span,
+    letter: char,
+    finding: Finding,
+    /// True where words stand beside it.
+    worded: bool,
+}
+
+/// The codes of a program of which something is to be said.
+fn look(program: &Program, module: &Module, context: &Context<'_>) -> Vec<Met> {
+    let (source, target) = (context.source, context.target);
+    let rounds = [source, target].iter().all(|control| control.is(Question::IntegerWordRounds));
+    let summaries = LazyCell::new(|| context.summaries(module));
+    let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
+    let ranges = LazyCell::new(|| Ranges::of_constants_and_codes(program, &summaries));
+    let mut met = Vec::new();
+    for (id, block) in program.ids().zip(&program.blocks) {
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            for item in &nc.items {
+                let NcItem::Code(letter, value) = item else { continue };
+                let listed = numbers(value, &assigned, id, at, source);
+                let mut numbers = listed.or_else(|| counted(&ranges.at(id, at, value)));
+                if rounds && value.constant().is_none() {
+                    numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
+                }
+                if let Some(finding) = check(*letter, numbers, source, target) {
+                    let worded = nc.items.iter().any(|item| matches!(item, NcItem::Word(..)));
+                    met.push(Met { span: stmt.site.span, letter: *letter, finding, worded });
+                }
+            }
+        }
+    }
+    met
 }
 
 /// How both controls number the codes of a letter.
