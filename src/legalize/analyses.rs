@@ -3,43 +3,42 @@
 use crate::ir::Module;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::{Modal, ModalFacts, Summaries};
-use std::cell::{OnceCell, RefCell};
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// What is known of a library as it is now.
 #[derive(Default)]
 pub(super) struct Analyses {
     /// By the state in which runs begin.
-    facts: RefCell<Vec<(Modal, Rc<ModalFacts>)>>,
-    summaries: OnceCell<Rc<Summaries>>,
-    called: OnceCell<Rc<CalledPrograms>>,
+    facts: Mutex<Vec<(Modal, Arc<ModalFacts>)>>,
+    summaries: OnceLock<Arc<Summaries>>,
+    called: OnceLock<Arc<CalledPrograms>>,
     /// The library that they are of: debug builds hold every question against it.
-    of: OnceCell<Module>,
+    of: OnceLock<Module>,
 }
 
 impl Analyses {
     /// What is in force at every block, if runs begin in the state `entry`.
-    pub fn modal_facts(&self, module: &Module, entry: &Modal) -> Rc<ModalFacts> {
+    pub fn modal_facts(&self, module: &Module, entry: &Modal) -> Arc<ModalFacts> {
         self.check(module);
-        let mut known = self.facts.borrow_mut();
+        let mut known = self.facts.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, facts)) = known.iter().find(|(other, _)| other == entry) {
-            return Rc::clone(facts);
+            return Arc::clone(facts);
         }
-        let facts = Rc::new(ModalFacts::of(module, entry));
-        known.push((entry.clone(), Rc::clone(&facts)));
+        let facts = Arc::new(ModalFacts::of(module, entry));
+        known.push((entry.clone(), Arc::clone(&facts)));
         facts
     }
 
     /// What programs may write.
-    pub fn summaries(&self, module: &Module) -> Rc<Summaries> {
+    pub fn summaries(&self, module: &Module) -> Arc<Summaries> {
         self.check(module);
-        self.summaries.get_or_init(|| Rc::new(Summaries::of(module))).clone()
+        self.summaries.get_or_init(|| Arc::new(Summaries::of(module))).clone()
     }
 
     /// Which programs calls run.
-    pub fn called(&self, module: &Module) -> Rc<CalledPrograms> {
+    pub fn called(&self, module: &Module) -> Arc<CalledPrograms> {
         self.check(module);
-        self.called.get_or_init(|| Rc::new(CalledPrograms::of(module))).clone()
+        self.called.get_or_init(|| Arc::new(CalledPrograms::of(module))).clone()
     }
 
     /// Forgets everything: the library is another now.

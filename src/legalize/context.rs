@@ -2,6 +2,7 @@
 
 use super::Modal;
 use super::analyses::Analyses;
+use super::by_program::look_at_each;
 use super::features::Features;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
@@ -17,10 +18,8 @@ use crate::legalize::variables::computed_numbers::Reached;
 use crate::opt::Level;
 use crate::text::Span;
 use foldhash::{HashMap, HashSet};
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
-use std::rc::Rc;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The controls of a conversion and the findings so far.
 pub struct Context<'a> {
@@ -63,9 +62,9 @@ pub struct Context<'a> {
     /// The number of each program, from the pass `program-numbers` on.
     pub numbers: ProgramNumbers,
     /// The operations that the target has M codes for, once they were asked for.
-    pub(super) m_codes: OnceCell<BTreeSet<Op>>,
+    pub(super) m_codes: OnceLock<BTreeSet<Op>>,
     /// The operations that the target has codes for.
-    pub(super) had: OnceCell<BTreeSet<Op>>,
+    pub(super) had: OnceLock<BTreeSet<Op>>,
     findings: Findings,
     /// Questions of behaviour that programs were seen to rest on.
     rested: HashSet<(usize, Side, Question)>,
@@ -185,8 +184,8 @@ impl<'a> Context<'a> {
             copied: Vec::new(),
             registers: Registers::default(),
             numbers: ProgramNumbers::default(),
-            m_codes: OnceCell::new(),
-            had: OnceCell::new(),
+            m_codes: OnceLock::new(),
+            had: OnceLock::new(),
             findings,
             rested,
             facts,
@@ -212,17 +211,17 @@ impl<'a> Context<'a> {
     }
 
     /// What is in force at every block of the library.
-    pub(super) fn modal_facts(&self, module: &Module) -> Rc<ModalFacts> {
+    pub(super) fn modal_facts(&self, module: &Module) -> Arc<ModalFacts> {
         self.analyses.modal_facts(module, &self.entry)
     }
 
     /// The same where runs begin in another state.
-    pub(super) fn modal_facts_from(&self, module: &Module, entry: &Modal) -> Rc<ModalFacts> {
+    pub(super) fn modal_facts_from(&self, module: &Module, entry: &Modal) -> Arc<ModalFacts> {
         self.analyses.modal_facts(module, entry)
     }
 
     /// The same where runs that find no known one of absolute and incremental coordinates begin in absolute ones.
-    pub(super) fn facts_from_absolute(&self, module: &Module) -> Rc<ModalFacts> {
+    pub(super) fn facts_from_absolute(&self, module: &Module) -> Arc<ModalFacts> {
         let mut entry = self.entry.clone();
         if entry.op(Group::Distance).is_none() {
             entry.start_in(Op::Absolute);
@@ -232,9 +231,9 @@ impl<'a> Context<'a> {
 
     /// Counts what stands in each program, unless that is known.
     pub(super) fn count(&mut self, module: &Module) {
-        let known = self.take_counted().into_iter().chain(std::iter::repeat(None));
-        let all = module.programs.iter().zip(known);
-        self.keep_counted(all.map(|(program, known)| Features::of_known(known, program)));
+        let known = self.take_counted();
+        let of = |index: usize, program| Features::of_known(known.get(index).copied().flatten(), program);
+        self.keep_counted(look_at_each(module, of));
     }
 
     /// Keeps what was counted in each program, and what that makes of the library.
@@ -271,12 +270,12 @@ impl<'a> Context<'a> {
     }
 
     /// What programs of the library may write.
-    pub(super) fn summaries(&self, module: &Module) -> Rc<Summaries> {
+    pub(super) fn summaries(&self, module: &Module) -> Arc<Summaries> {
         self.analyses.summaries(module)
     }
 
     /// Which programs the calls of the library run.
-    pub(super) fn called(&self, module: &Module) -> Rc<CalledPrograms> {
+    pub(super) fn called(&self, module: &Module) -> Arc<CalledPrograms> {
         self.analyses.called(module)
     }
 

@@ -12,6 +12,7 @@
 
 mod analyses;
 mod assumptions;
+mod by_program;
 mod calls;
 mod codes;
 mod context;

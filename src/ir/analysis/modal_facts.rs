@@ -14,27 +14,27 @@ use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, St
 use crate::syntax::{Label, ProgramName};
 use foldhash::HashMap;
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The modal state at the start of every block of a library.
 #[derive(Clone, Debug)]
 pub struct ModalFacts {
     /// By block of all programs, one program after the other; none if no path leads. Most blocks change nothing, and
     /// start in one state.
-    entries: Vec<Option<Rc<Modal>>>,
+    entries: Vec<Option<Arc<Modal>>>,
     /// By program, the place of its first block; at last, that of the end.
     firsts: Vec<usize>,
 }
 
-impl Lattice for Rc<Modal> {
+impl Lattice for Arc<Modal> {
     fn join(&mut self, other: &Self) -> bool {
-        if Rc::ptr_eq(self, other) || self == other {
+        if Arc::ptr_eq(self, other) || self == other {
             return false;
         }
         let mut joined = Modal::clone(self);
         let changed = joined.join(&**other);
         if changed {
-            *self = if joined == **other { Rc::clone(other) } else { Rc::new(joined) };
+            *self = if joined == **other { Arc::clone(other) } else { Arc::new(joined) };
         }
         changed
     }
@@ -92,7 +92,7 @@ struct Analysis<'m> {
     by_name: HashMap<&'m ProgramName, usize>,
     computed: BTreeMap<Place, Callees>,
     /// By block of all programs, one program after the other.
-    entries: Routines<Rc<Modal>>,
+    entries: Routines<Arc<Modal>>,
     /// By program, the node of its first block; at last, that of the end.
     firsts: Vec<usize>,
     /// By routine, the blocks that it can run.
@@ -125,7 +125,7 @@ impl<'m> Analysis<'m> {
 
     fn run(mut self, entry: &Modal) -> ModalFacts {
         let called = self.called_programs();
-        let (entry, head) = (&Rc::new(entry.clone()), &Rc::new(entry.at_head()));
+        let (entry, head) = (&Arc::new(entry.clone()), &Arc::new(entry.at_head()));
         for (index, program) in self.module.programs.iter().enumerate() {
             // A program that ends the run is started by the operator too, whoever calls it.
             if !called.contains(&index) || !program.returns() {
@@ -173,15 +173,15 @@ impl<'m> Analysis<'m> {
         }
     }
 
-    fn go(&mut self, to: Place, state: &Rc<Modal>) {
+    fn go(&mut self, to: Place, state: &Arc<Modal>) {
         if let Some(node) = self.node(to) {
             self.entries.go(node, state);
         }
     }
 
-    fn block(&mut self, (index, id): Place, entry: Rc<Modal>) {
+    fn block(&mut self, (index, id): Place, entry: Arc<Modal>) {
         let Some(block) = self.module.programs[index].block(id) else { return };
-        let mut state = Rc::clone(&entry);
+        let mut state = Arc::clone(&entry);
         for stmt in block.stmts.iter().filter(|stmt| Modal::may_step(stmt)) {
             let nested = state.calls.as_ref().is_some_and(|calls| !calls.is_empty());
             if let StmtKind::ModalCall(call) = &stmt.kind
@@ -189,11 +189,11 @@ impl<'m> Analysis<'m> {
             {
                 // It runs after moves yet to come, under the modal calls outside its own.
                 let inside = Modal::unknown_under(&state);
-                self.call((index, id), call, &Rc::new(inside));
+                self.call((index, id), call, &Arc::new(inside));
             }
-            Rc::make_mut(&mut state).step(stmt);
+            Arc::make_mut(&mut state).step(stmt);
         }
-        if !Rc::ptr_eq(&state, &entry) && state == entry {
+        if !Arc::ptr_eq(&state, &entry) && state == entry {
             state = entry;
         }
         match &block.term.kind {
@@ -208,20 +208,20 @@ impl<'m> Analysis<'m> {
     }
 
     /// Enters a callee and yields the state after the call; none if it is not known to return.
-    fn call(&mut self, from: Place, call: &Call, state: &Rc<Modal>) -> Option<Rc<Modal>> {
+    fn call(&mut self, from: Place, call: &Call, state: &Arc<Modal>) -> Option<Arc<Modal>> {
         let entry = match (&call.callee, self.program_of(&call.callee)) {
             (Callee::Block(entry), _) => (from.0, *entry),
             (_, Some(program)) => (program, BlockId(0)),
             (Callee::Computed(_), _) => {
                 let callees = self.computed.get(&from).cloned().unwrap_or_default();
                 callees.entered(self.module).for_each(|program| self.go((program, BlockId(0)), state));
-                let after = Rc::new(Modal::unknown_under(state));
+                let after = Arc::new(Modal::unknown_under(state));
                 if callees.programs.iter().any(|program| comes_back(&self.module.programs[*program])) {
                     self.come_back(from.0, None, &after);
                 }
                 return Some(after);
             }
-            _ => return Some(Rc::new(Modal::unknown_under(state))),
+            _ => return Some(Arc::new(Modal::unknown_under(state))),
         };
         let (routine, caller) = (self.node(entry)?, self.node(from)?);
         if self.entries.call(caller, routine, state) {
@@ -240,7 +240,7 @@ impl<'m> Analysis<'m> {
     }
 
     /// A return leaves every routine that the block belongs to; one to a sequence number goes on there in the callers.
-    fn returned(&mut self, (index, id): Place, to: Option<&Expr>, state: &Rc<Modal>) {
+    fn returned(&mut self, (index, id): Place, to: Option<&Expr>, state: &Arc<Modal>) {
         for routine in self.entries.called(self.firsts[index]..self.firsts[index + 1]) {
             if !self.reach.get(&routine).is_some_and(|body| body.contains(&id)) {
                 continue;
@@ -256,7 +256,7 @@ impl<'m> Analysis<'m> {
     }
 
     /// Goes on in a caller at the blocks of a sequence number; of any where it is not known.
-    fn come_back(&mut self, caller: usize, number: Option<f64>, state: &Rc<Modal>) {
+    fn come_back(&mut self, caller: usize, number: Option<f64>, state: &Arc<Modal>) {
         let program = &self.module.programs[caller];
         let is_it = |label: &Label| match label {
             Label::Number(n) => number.is_none_or(|number| number == f64::from(*n)),

@@ -1,6 +1,6 @@
 //! Sets of variables as bits.
 
-use crate::ir::{Class, Var};
+use crate::ir::{Class, Program, Var};
 use smallvec::{SmallVec, smallvec};
 
 /// The variables that an analysis speaks of, in order.
@@ -164,6 +164,13 @@ pub struct VarSet {
 }
 
 impl VarSet {
+    /// The variables that a program names.
+    pub fn of(program: &Program) -> Self {
+        let mut all = Self::default();
+        program.variables(&mut |var| _ = all.insert(var));
+        all
+    }
+
     fn find(&self, key: Key) -> Result<usize, usize> {
         find(&self.words, key, |(key, _)| *key)
     }

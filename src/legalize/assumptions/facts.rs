@@ -4,6 +4,7 @@
 //! at the first place that rests on it. Facts about vacancy matter only where a variable may be vacant; that is looked
 //! for by data flow.
 
+mod seen;
 mod states;
 mod vacant;
 
@@ -13,13 +14,14 @@ use crate::dialect::{CodeMeaning, Control, Question, Row, Side};
 use crate::ir::analysis::Vacancy;
 use crate::ir::{BinOp, Block, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
 use crate::legalize::Context;
+use crate::legalize::by_program::look_with;
 use crate::legalize::expressions::functions::of_magnitudes_only;
 use crate::legalize::features::Feature;
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
-use smallvec::SmallVec;
+use seen::Seen;
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::sync::Arc;
 use vacant::VACANCY;
 
 /// Reports the unconfirmed facts of the target that programs rest on.
@@ -52,37 +54,19 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
         .iter()
         .any(|question| control.behaviour(*question).is_some_and(|row| !row.origin.is_confirmed()));
     let own = computes && asked && context.source.is(Question::Vacancy);
-    let summaries = if own { context.summaries(module) } else { Rc::default() };
+    let summaries = if own { context.summaries(module) } else { Arc::default() };
     let given = if own { context.called(module).given(module) } else { BTreeMap::new() };
-    let none = BTreeSet::new();
-    let mut found = Found {
-        control,
-        side,
-        rows: HashMap::new(),
-        program: 0,
-        all: Vec::new(),
-        places: Vec::new(),
-        home: Span::default(),
-        seen: BTreeSet::new(),
-        words: [0; WORDS],
-    };
-    for (index, program) in module.programs.iter().enumerate() {
-        (found.home, found.program) = (program.site.span, found.program + 1);
-        found.places = places(program);
-        found.seen.clear();
-        found.words = [0; WORDS];
-        let given = given.get(&index).unwrap_or(&none);
-        let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
-        for (at, id) in program.ids().enumerate() {
-            let blocks = program.blocks.get(at..).unwrap_or_default();
-            if side == Side::Target {
-                found.block(blocks);
-            }
-            if let Some(vacancy) = &vacancy {
-                found.vacant(id, blocks, vacancy);
-            }
-        }
-        for finding in found.all.drain(..) {
+    let (none, summaries) = (BTreeSet::new(), &*summaries);
+    let all = look_with(
+        module,
+        || Found::new(control, side),
+        |found, index, program| {
+            let given = given.get(&index).unwrap_or(&none);
+            found.program(program, own.then(|| Vacancy::of(program, summaries, given)))
+        },
+    );
+    for (index, findings) in all.into_iter().enumerate() {
+        for finding in findings {
             let fact = finding.fact().unwrap_or_default();
             context.add_once(index, &format!("{side} {fact}"), finding);
         }
@@ -117,69 +101,39 @@ struct Found<'c> {
     places: Vec<Option<Span>>,
     /// Where a finding goes if no such statement comes.
     home: Span,
-    /// Operations and words of blocks that were looked at.
-    seen: BTreeSet<Shape>,
-    /// The words of those of them that have no operation, a bit for each word.
-    words: [u64; WORDS],
-}
-
-/// The operations and words of a block of constants.
-type Shape = SmallVec<[Part; 8]>;
-
-/// An operation, or a word by its role and the sign of its value.
-type Part = (u16, Sign);
-
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Sign {
-    /// Of an operation.
-    None,
-    Plus,
-    Minus,
-    /// That stands before the constant.
-    Negated,
-}
-
-/// Of 64 bits: four signs of each role.
-const WORDS: usize = Role::ALL.len() * 4 / 64 + 1;
-
-/// What a block rests on hangs on no more than this of each item; none if it may.
-fn part(item: &NcItem) -> Option<Part> {
-    match item {
-        NcItem::Op(op) => Some((*op as u16, Sign::None)),
-        NcItem::Word(Role::WorkOffset | Role::Repeat, _) | NcItem::Code(..) => None,
-        NcItem::Word(role, value) => {
-            let sign = match value {
-                Expr::Number(value) if *value < 0.0 => Sign::Minus,
-                Expr::Number(_) => Sign::Plus,
-                Expr::Negate(inner) if matches!(**inner, Expr::Number(_)) => Sign::Negated,
-                _ => return None,
-            };
-            Some((*role as u16, sign))
-        }
-    }
-}
-
-/// The bit of a word.
-fn bit((role, sign): Part) -> (usize, u64) {
-    let at = usize::from(role) * 4 + sign as usize;
-    (at / 64, 1 << (at % 64))
+    /// The blocks of constants of the present program that were looked at.
+    seen: Seen,
 }
 
 impl<'c> Found<'c> {
-    /// True where a block of these words rests on nothing that was not looked at; notes that it was.
-    fn is_known(&mut self, nc: &Nc) -> bool {
-        let known = |item: &NcItem| {
-            let word = part(item).filter(|(_, sign)| *sign != Sign::None).map(bit);
-            word.is_some_and(|(at, bit)| self.words[at] & bit != 0)
-        };
-        if nc.items.iter().all(known) {
-            return true;
+    fn new(control: &'c Control, side: Side) -> Self {
+        Self {
+            control,
+            side,
+            rows: HashMap::new(),
+            program: 0,
+            all: Vec::new(),
+            places: Vec::new(),
+            home: Span::default(),
+            seen: Seen::default(),
         }
-        let Some(shape) = nc.items.iter().map(part).collect::<Option<Shape>>() else { return false };
-        if shape.iter().all(|(_, sign)| *sign != Sign::None) {
-            shape.iter().map(|word| bit(*word)).for_each(|(at, bit)| self.words[at] |= bit);
+    }
+
+    /// What is to be said of a program.
+    fn program(&mut self, program: &Program, vacancy: Option<Vacancy<'_>>) -> Vec<Diagnostic> {
+        (self.home, self.program) = (program.site.span, self.program + 1);
+        self.places = places(program);
+        self.seen = Seen::default();
+        for (at, id) in program.ids().enumerate() {
+            let blocks = program.blocks.get(at..).unwrap_or_default();
+            if self.side == Side::Target {
+                self.block(blocks);
+            }
+            if let Some(vacancy) = &vacancy {
+                self.vacant(id, blocks, vacancy);
+            }
         }
-        !self.seen.insert(shape)
+        std::mem::take(&mut self.all)
     }
 
     fn row<T: Row>(&mut self, row: &'c T, span: Span) {
@@ -236,7 +190,7 @@ impl<'c> Found<'c> {
         for (at, stmt) in block.stmts.iter().enumerate() {
             if let StmtKind::Nc(nc) = &stmt.kind
                 && stmt.site.skip.is_none()
-                && self.is_known(nc)
+                && self.seen.is_known(nc)
             {
                 continue;
             }

@@ -15,53 +15,27 @@ use crate::dialect::{Control, Question};
 use crate::ir::analysis::{Assigned, Constant, Ranges, Values};
 use crate::ir::{BlockId, Expr, Module, NcItem, StmtKind};
 use crate::legalize::Context;
+use crate::legalize::by_program::look_at_each;
 use crate::legalize::features::Feature;
 use crate::text::Span;
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
 
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let summaries = LazyCell::new(|| context.summaries(module));
-    let rounds =
-        [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
-    let in_force = LazyCell::new(|| FoundCodes::of(module));
+    let shared = &*context;
+    let in_force = LazyLock::new(|| FoundCodes::of(module));
+    let all = look_at_each(module, |index, _| {
+        let has_any = shared.may_concern(index, |features| features.has(Feature::Code));
+        has_any.then(|| look(index, module, shared, &in_force)).unwrap_or_default()
+    });
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     // Programs with words beside such a code: a code that both have may take them otherwise.
     let mut worded: BTreeSet<(usize, char)> = BTreeSet::new();
-    for (index, program) in module.programs.iter().enumerate() {
-        if !context.may_concern(index, |features| features.has(Feature::Code)) {
-            continue;
-        }
-        let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
-        let ranges = LazyCell::new(|| Ranges::of_constants_and_codes(program, &summaries));
-        for (id, block) in program.ids().zip(&program.blocks) {
-            for (at, stmt) in block.stmts.iter().enumerate() {
-                let StmtKind::Nc(nc) = &stmt.kind else { continue };
-                for item in &nc.items {
-                    if let NcItem::Code(letter, value) = item {
-                        let listed = numbers(value, &assigned, id, at, context.source);
-                        let mut numbers = listed.or_else(|| counted(&ranges.at(id, at, value)));
-                        if rounds && value.constant().is_none() {
-                            numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
-                        }
-                        let differs =
-                            |n: &Number| !is_same(*letter, n.number, context.source, context.target);
-                        // What nobody can have put in force where it is read is none of them.
-                        let never = |n: &Number| {
-                            let row = context.source.code(*letter, n.number, &[]);
-                            n.read && differs(n) && row.is_some_and(|row| !in_force.may_find(index, row.op))
-                        };
-                        numbers.iter_mut().for_each(|numbers| numbers.retain(|number| !never(number)));
-                        let finding = check(*letter, numbers, context.source, context.target);
-                        if finding.is_some() && nc.items.iter().any(|item| matches!(item, NcItem::Word(..))) {
-                            worded.insert((index, *letter));
-                        }
-                        found.extend(finding.map(|finding| (index, stmt.site.span, (*letter, finding))));
-                    }
-                }
-            }
-        }
+    for (index, met) in all.into_iter().enumerate() {
+        worded.extend(met.iter().filter(|met| met.worded).map(|met| (index, met.letter)));
+        found.extend(met.into_iter().map(|met| (index, met.span, (met.letter, met.finding))));
     }
     let mut letters: BTreeMap<char, Letter> = BTreeMap::new();
     for (index, span, (letter, finding)) in &found {
@@ -136,6 +110,56 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         };
         context.add_once(*index, &what, told);
     }
+}
+
+/// A code that is known by its number, of which something is to be said.
+struct Met {
+    span: Span,
+    letter: char,
+    finding: Finding,
+    /// True where words stand beside it.
+    worded: bool,
+}
+
+/// The codes of a program of which something is to be said.
+fn look(
+    index: usize,
+    module: &Module,
+    context: &Context<'_>,
+    in_force: &LazyLock<FoundCodes, impl FnOnce() -> FoundCodes>,
+) -> Vec<Met> {
+    let Some(program) = module.programs.get(index) else { return Vec::new() };
+    let (source, target) = (context.source, context.target);
+    let rounds = [source, target].iter().all(|control| control.is(Question::IntegerWordRounds));
+    let summaries = LazyCell::new(|| context.summaries(module));
+    let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
+    let ranges = LazyCell::new(|| Ranges::of_constants_and_codes(program, &summaries));
+    let mut met = Vec::new();
+    for (id, block) in program.ids().zip(&program.blocks) {
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            for item in &nc.items {
+                let NcItem::Code(letter, value) = item else { continue };
+                let listed = numbers(value, &assigned, id, at, source);
+                let mut numbers = listed.or_else(|| counted(&ranges.at(id, at, value)));
+                if rounds && value.constant().is_none() {
+                    numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
+                }
+                let differs = |n: &Number| !is_same(*letter, n.number, source, target);
+                // What nobody can have put in force where it is read is none of them.
+                let never = |n: &Number| {
+                    let row = source.code(*letter, n.number, &[]);
+                    n.read && differs(n) && row.is_some_and(|row| !in_force.may_find(index, row.op))
+                };
+                numbers.iter_mut().for_each(|numbers| numbers.retain(|number| !never(number)));
+                if let Some(finding) = check(*letter, numbers, source, target) {
+                    let worded = nc.items.iter().any(|item| matches!(item, NcItem::Word(..)));
+                    met.push(Met { span: stmt.site.span, letter: *letter, finding, worded });
+                }
+            }
+        }
+    }
+    met
 }
 
 /// How both controls number the codes of a letter.

@@ -17,6 +17,7 @@ use crate::ir::{
     BlockId, Builder, Cond, Expr, Module, Nc, NcItem, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind,
 };
 use crate::legalize::Context;
+use crate::legalize::by_program::look_at_each;
 use crate::legalize::codes::by_number::is_same;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{Part, rebuild, unless_skipped};
@@ -37,12 +38,13 @@ fn has_codes(features: &Features) -> bool {
 /// Writes codes by computed numbers out; gives the programs that have any which can be.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let summaries = context.summaries(module);
+    let shared = &*context;
+    let found = look_at_each(module, |index, program| {
+        let has_any = shared.may_concern(index, has_codes);
+        has_any.then(|| chains(program, &summaries, shared)).unwrap_or_default()
+    });
     let mut changed = Vec::new();
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        if !context.may_concern(index, has_codes) {
-            continue;
-        }
-        let chains = chains(program, &summaries, context);
+    for (index, (program, chains)) in module.programs.iter_mut().zip(found).enumerate() {
         if chains.is_empty() {
             continue;
         }

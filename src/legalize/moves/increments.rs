@@ -14,7 +14,7 @@ use crate::legalize::moves::units::exit::ExitUnit;
 use crate::legalize::{Context, Modal, ModalFacts, Setting};
 use crate::text::Span;
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// What is said where the unit is not known, and where it rests on what the library has not.
 #[derive(Clone, Copy)]
@@ -156,7 +156,7 @@ fn report(
 }
 
 /// What is in force in the library, as far as that is known for sure.
-fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> Rc<ModalFacts> {
+fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> Arc<ModalFacts> {
     let mut entry = context.entry.clone();
     if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), context.source.units()) {
         entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
@@ -164,7 +164,7 @@ fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> Rc<ModalFacts
     entry.one_unit = all.is_one();
     // Where no program names a unit, it is the machine's all through.
     let known = context.entry.op(Group::Units).is_some() || all != ExitUnit::default();
-    if known { context.modal_facts_from(module, &entry) } else { Rc::new(ModalFacts::unknown()) }
+    if known { context.modal_facts_from(module, &entry) } else { Arc::new(ModalFacts::unknown()) }
 }
 
 /// What a program that names one unit has in force where every way to a place names it, and nothing in the library that

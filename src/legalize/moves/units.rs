@@ -25,7 +25,7 @@ use crate::legalize::{Context, ModalFacts, calls_of};
 use crate::text::Span;
 use exit::ExitUnit;
 use std::collections::BTreeSet;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// False where the unit is known at the start and stays so: nothing names it, checks it or may leave another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -56,7 +56,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     entry.one_unit = ExitUnit::of_library(module, context).is_one();
     let known =
         entry.op(Group::Units).is_some() || module.programs.iter().flat_map(units_named).next().is_some();
-    let facts = if known { context.modal_facts_from(module, &entry) } else { Rc::new(ModalFacts::unknown()) };
+    let facts =
+        if known { context.modal_facts_from(module, &entry) } else { Arc::new(ModalFacts::unknown()) };
     let called = context.called(module);
     let open = open(module, &facts, &called);
     let mut heads = mains(module, &called);

@@ -16,6 +16,7 @@ use super::shortage::Shortage;
 use crate::ir::analysis::VarSet;
 use crate::ir::{Bank, Class, Module, Var};
 use crate::legalize::Context;
+use crate::legalize::by_program::look_at_each;
 use crate::legalize::features::{Feature, Features};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,14 +36,11 @@ fn allocate(
 ) -> Registers {
     let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
     // Where no program names any, there is nothing to look for.
-    let named = module.programs.iter().enumerate().filter(|_| features.has(Feature::Variable));
-    let mut seen = VarSet::default();
-    for (index, program) in named {
-        program.variables(&mut |var| {
-            if seen.insert(var) {
-                users.insert(var, (index, program.site.span));
-            }
-        });
+    if features.has(Feature::Variable) {
+        let named = look_at_each(module, |_, program| VarSet::of(program));
+        for (index, (program, named)) in module.programs.iter().zip(named).enumerate() {
+            named.iter().for_each(|var| _ = users.entry(var).or_insert((index, program.site.span)));
+        }
     }
     if clear::concerns(features, context) {
         users.insert(clear::COUNTER, (0, Span::default()));

@@ -9,22 +9,23 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{VarSet, Vars};
 use crate::ir::{Class, Expr, Module, Place, Program, StmtKind, Var};
 use crate::legalize::Context;
+use crate::legalize::by_program::look_at_each;
 use crate::legalize::registers::names::{in_a_sentence, name_of};
-use std::collections::BTreeSet;
 
 /// Reports variables that nothing here sets and that have another number on the target: of all of them in one sentence.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let written = written(module);
-    let reads: Vec<VarSet> = module.programs.iter().map(read).collect();
+    let reads: Vec<VarSet> = look_at_each(module, |_, program| read(program));
     let moved = |var: &Var| {
         let register = context.registers.of.get(var)?;
         let set_here =
             !is_shared(var.class) || written.contains(*var) || context.registers.is_own(var, register);
         (!set_here).then(|| name_of(*var, module, context.source)).flatten().map(|name| (name, register))
     };
-    let all: BTreeSet<Var> = reads.iter().flat_map(VarSet::iter).collect();
+    let mut all = VarSet::default();
+    reads.iter().for_each(|read| _ = all.join(read, |_| true));
     let mut moves: Vec<(Var, Named, Named)> = Vec::new();
-    for var in all {
+    for var in all.iter() {
         if let Some((name, register)) = moved(&var) {
             moves.push((var, apart(&name), (register.name.clone(), Some(register.number))));
         }
@@ -98,16 +99,21 @@ fn read(program: &Program) -> VarSet {
 
 /// What the library sets by name, or clears.
 fn written(module: &Module) -> Vars {
-    let mut written = Vars::default();
-    let blocks = module.programs.iter().flat_map(|program| &program.blocks);
-    for stmt in blocks.flat_map(|block| &block.stmts) {
-        match (&stmt.kind, stmt.kind.target()) {
-            (StmtKind::ClearAll(class), _) => written.classes.insert(*class),
-            (_, Some(Place::Var(var))) => _ = written.vars.insert(*var),
-            _ => {}
+    let by_program = look_at_each(module, |_, program| {
+        let mut written = Vars::default();
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            match (&stmt.kind, stmt.kind.target()) {
+                (StmtKind::ClearAll(class), _) => written.classes.insert(*class),
+                (_, Some(Place::Var(var))) => _ = written.vars.insert(*var),
+                _ => {}
+            }
         }
-    }
-    written
+        written
+    });
+    by_program.iter().fold(Vars::default(), |mut all, written| {
+        all.join(written);
+        all
+    })
 }
 
 /// True for what is not a program's own.

@@ -17,6 +17,7 @@ use crate::legalize::Context;
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use foldhash::HashMap;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Colours of a call's programs that are told apart; no control has so many registers.
@@ -29,17 +30,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     // Only for a target without locals are there any.
     let prefixes = context.source.prefixes();
     let statics = if has_locals(context.target) { None } else { Statics::of(module, &prefixes) };
-    let mut plans: Vec<Plan> = Vec::with_capacity(module.programs.len());
-    for (at, program) in module.programs.iter_mut().enumerate() {
-        let first = first_colours(program, context.target);
+    let target = context.target;
+    let planned = module.programs.par_iter_mut().enumerate().map(|(at, program)| {
+        let first = first_colours(program, target);
         let mut plan = Plan { first, ..Plan::of(at, program, modal, statics.as_ref()) };
         if statics.is_none() && plan.over.is_empty() {
             // Nothing in other programs matters to it: what it needs is not kept for the whole library.
             plan.colour(&BTreeSet::new());
             (plan.apart, plan.copies) = Default::default();
         }
-        plans.push(plan);
-    }
+        plan
+    });
+    let mut plans: Vec<Plan> = planned.collect();
     if statics.is_some() || plans.iter().any(|plan| !plan.over.is_empty()) {
         over_calls(module, &mut plans, statics.as_ref(), context);
     } else {
@@ -52,7 +54,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let highest = highest.entry(colour / APART).or_default();
         *highest = colour.max(*highest);
     }
-    for (program, plan) in module.programs.iter_mut().zip(&mut plans) {
+    for plan in &mut plans {
         for temp in std::mem::take(&mut plan.alone) {
             let first = plan.first_of(temp);
             let lone = highest.entry(first / APART).or_insert(first);
@@ -62,8 +64,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let class = class_of(statics.as_ref());
         let over = plan.over.keys().filter_map(|temp| plan.colours.get(temp));
         context.over_calls.extend(over.map(|colour| Var { class, number: *colour }));
-        rename(program, plan, statics.as_ref());
     }
+    let named = module.programs.par_iter_mut().zip(&plans);
+    named.for_each(|(program, plan)| rename(program, plan, statics.as_ref()));
     let over = statics.iter().flat_map(Statics::over_calls);
     context.over_calls.extend(over.map(|colour| Var { class: Class::Static, number: colour }));
 }

@@ -16,9 +16,10 @@ mod shift;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
-use crate::ir::analysis::{self, Assigned, Ranges, Values};
-use crate::ir::{Bank, Expr, Module, constant_part};
+use crate::ir::analysis::{self, Assigned, Ranges, Summaries, Values};
+use crate::ir::{Bank, Expr, Module, Program, constant_part};
 use crate::legalize::Context;
+use crate::legalize::by_program::look_with;
 use crate::legalize::variables::banks::{all_numbers, each_index};
 use crate::text::Span;
 use found::Found;
@@ -44,10 +45,9 @@ pub struct Reached {
 impl Reached {
     /// Numbers that any of the others are supposed to be.
     pub(in crate::legalize) fn everything(&self, source: &Control, target: &Control) -> analysis::Numbers {
-        let mut all = analysis::Numbers::default();
-        if !self.open.is_empty() {
-            let numbers = Numbers::new(source, target, self.table.clone());
-            self.open.iter().for_each(|(_, found)| all.join(&found.finding.supposed(&numbers)));
+        let mut all = self.supposed();
+        if self.open.iter().any(|(_, found)| found.finding == Finding::Any) {
+            all.join(Numbers::new(source, target, self.table.clone()).list());
         }
         all
     }
@@ -60,29 +60,42 @@ impl Reached {
 
 /// Shifts computed numbers, and notes what they may be; gives the programs in which any is shifted.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
-    let table = Table::default();
-    let mut numbers = Numbers::new(context.source, context.target, table.clone());
-    context.reached = Reached { table, ..look(module, &mut numbers, context) };
-    let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
-    if !numbers.known.values().any(moves) {
-        return Vec::new();
+    let (source, target, table) = (context.source, context.target, Table::default());
+    let numbers = || Numbers::new(source, target, table.clone());
+    let summaries = context.summaries(module);
+    let summaries = &*summaries;
+    let all = look_with(module, numbers, |numbers, _, program| Looked::at(program, summaries, numbers));
+    let mut reached = Reached { table: table.clone(), ..Reached::default() };
+    let mut moving: Vec<usize> = Vec::new();
+    for (index, looked) in all.into_iter().enumerate() {
+        looked.tell(index, context);
+        reached.sure.join(&looked.sure);
+        reached.open.extend(looked.open.into_iter().map(|found| (index, found)));
+        moving.extend(looked.moves.then_some(index));
     }
-    let mut shifted = Vec::new();
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        if shift(program, &mut numbers) {
-            shifted.push(index);
-        }
-    }
-    shifted
+    context.reached = reached;
+    let mut numbers = numbers();
+    moving.into_iter().filter(|index| shift(&mut module.programs[*index], &mut numbers)).collect()
 }
 
-fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -> Reached {
-    let summaries = context.summaries(module);
-    let mut reached = Reached::default();
-    for (index, program) in module.programs.iter().enumerate() {
-        let ranges = LazyCell::new(|| Ranges::of(program, &summaries));
-        let assigned = Assigned::new(program, &summaries);
-        let mut found: Vec<Found> = Vec::new();
+/// What was found in one program.
+#[derive(Default)]
+struct Looked {
+    /// Numbers that some are known to be.
+    sure: analysis::Numbers,
+    /// What is supposed of the others.
+    open: Vec<Found>,
+    /// All that is known of any, with its place.
+    known: Vec<(Finding, Span)>,
+    /// True where the target has some elsewhere.
+    moves: bool,
+}
+
+impl Looked {
+    fn at(program: &Program, summaries: &Summaries, numbers: &mut Numbers<'_>) -> Self {
+        let mut looked = Self::default();
+        let ranges = LazyCell::new(|| Ranges::of(program, summaries));
+        let assigned = Assigned::new(program, summaries);
         // Numbers that others in the same block are known to be: they are no strays.
         let mut known: Vec<(Span, analysis::Numbers)> = Vec::new();
         let mut looked_up = 0;
@@ -106,27 +119,35 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -
                     (values.numbers(), matches!(values, Values::Few(_)))
                 }
             };
+            looked.moves |= numbers.of(number).moves();
             let (finding, sure) = numbers.judge(number, &may_be, exact);
             if sure {
-                reached.sure.join(&may_be);
+                looked.sure.join(&may_be);
                 known.push((span, may_be));
             }
             let Some(finding) = finding else { return };
-            finding.rest_on_rows(index, span, context);
-            if let Finding::Other(_) = finding {
-                let (code, what) = finding.told(context, &analysis::Numbers::default(), false);
-                context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
-            } else if !sure {
-                Found::note(&mut found, finding, span, constant_part(number).unwrap_or_default());
+            looked.known.push((finding.clone(), span));
+            if !sure && !matches!(finding, Finding::Other(_)) {
+                Found::note(&mut looked.open, finding, span, constant_part(number).unwrap_or_default());
             }
         });
-        for found in &mut found {
+        for found in &mut looked.open {
             let here = known.iter().filter(|(span, _)| found.places.contains(span));
             here.for_each(|(_, numbers)| found.sure.join(numbers));
         }
-        reached.open.extend(found.into_iter().map(|found| (index, found)));
+        looked
     }
-    reached
+
+    /// Says what the program rests on, and what it may not have.
+    fn tell(&self, index: usize, context: &mut Context<'_>) {
+        for (finding, span) in &self.known {
+            finding.rest_on_rows(index, *span, context);
+            if let Finding::Other(_) = finding {
+                let (code, what) = finding.told(context, &analysis::Numbers::default(), false);
+                context.add_once(index, &what, Diagnostic::new(code, *span, what.clone()));
+            }
+        }
+    }
 }
 
 /// Says what is supposed of computed numbers, now that registers are taken.
@@ -145,7 +166,7 @@ pub fn report(_: &Module, context: &mut Context<'_>) {
             let supposed = found.finding.supposed(&numbers);
             let safe = supposed.without(taken.iter().copied());
             let hit = safe != supposed;
-            let (code, what) = found.finding.clone().told(context, &safe, hit);
+            let (code, what) = found.finding.told(context, &safe, hit);
             known.push((found.finding.clone(), Supposed { safe, hit, code, what: what.into() }));
             known.len() - 1
         });
@@ -197,6 +218,11 @@ impl Finding {
         there.into_iter().for_each(|number| context.rests_on_number(Side::Target, index, span, number));
     }
 
+    /// True where the target has such numbers elsewhere.
+    fn moves(&self) -> bool {
+        matches!(self, Finding::Shifted(..) | Finding::Counted(..))
+    }
+
     /// The run that it must stay in.
     fn run(&self) -> Option<(u32, u32)> {
         match *self {
@@ -216,9 +242,9 @@ impl Finding {
     }
 
     /// What is told of it, where the numbers in `safe` mean the same; `hit` where registers were taken among them.
-    fn told(self, context: &Context<'_>, safe: &analysis::Numbers, hit: bool) -> (Code, String) {
+    fn told(&self, context: &Context<'_>, safe: &analysis::Numbers, hit: bool) -> (Code, String) {
         let title = &context.target.dialect().title;
-        match self {
+        match *self {
             Finding::Alike(..) if hit => (
                 Code::Conditional,
                 format!(

@@ -23,7 +23,7 @@ pub(super) struct Numbers<'c> {
     target: &'c Control,
     table: Table,
     /// By the constant part of a number.
-    pub(super) known: BTreeMap<u32, Finding>,
+    known: BTreeMap<u32, Finding>,
 }
 
 /// What is known of all numbers of two controls.
@@ -64,7 +64,7 @@ impl<'c> Numbers<'c> {
     ) -> (Option<Finding>, bool) {
         let known = may_be.last().is_none_or(|last| self.table().last().is_some_and(|run| last <= run.last));
         let finding = self.of(number).clone();
-        let moves = matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
+        let moves = finding.moves();
         // What neither control has stops both.
         let differs = |(first, last): &(u32, u32)| {
             let run = self.touching(*first, *last).find(|run| run.alike == Some(false))?;
