@@ -49,6 +49,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             }),
             _ => true,
         });
+        if given {
+            context.forget();
+        }
     }
     let changed = each(module, context, Some(TEXTS), counts, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {

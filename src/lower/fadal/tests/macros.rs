@@ -98,8 +98,8 @@ fn facts_of_macro_lines_are_reported() {
     assert_eq!(found("O1\n#V100=1", ""), Vec::<String>::new());
     assert_eq!(found("O1\n#PRINT V1", ""), ["behaviour:print.format"]);
     assert!(found("O1\n#IF V1 THEN V2=1", "").contains(&"behaviour:number.is.condition".to_owned()));
-    assert_eq!(found("O1\n#V1=AX", ""), ["system:AX", "EarlyRead", "behaviour:position.frame"]);
-    assert_eq!(found("O1\n#WAIT\n#V1=AX", ""), ["system:AX", "behaviour:position.frame"]);
+    assert_eq!(found("O1\n#V1=AX", ""), ["EarlyRead", "behaviour:position.frame"]);
+    assert_eq!(found("O1\n#WAIT\n#V1=AX", ""), ["behaviour:position.frame"]);
     assert_eq!(found("O1\n#V1=V(V1/V2)", ""), ["behaviour:index.of.fraction"]);
     let mixed = found("O1\n#IF (V1=0) OR (V2=0) AND (V3=0) THEN V4=1", "");
     assert!(mixed.contains(&"operator:or".to_owned()), "{mixed:?}");

@@ -210,7 +210,7 @@ fn jump_on_an_input() {
     means(
         "haas",
         "M96 P10 Q8\nM30\nN10 M2",
-        "0: branch sys input[8] eq 0 ? b2 : b1\n1: end rewind\n2 N10: end",
+        "0: sync | branch sys input[8] eq 0 ? b2 : b1\n1: end rewind\n2 N10: end",
     );
 }
 
