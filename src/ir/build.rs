@@ -88,6 +88,15 @@ impl Builder {
         self.with_current(|block| block.stmts.push(Stmt { kind, site }));
     }
 
+    /// True if the present block has a wait for the moves that nothing can skip, and nothing after it that may move.
+    pub fn has_waited(&self) -> bool {
+        let block = self.blocks.get(self.current.index()).and_then(Option::as_ref);
+        let stmts = block.filter(|_| self.open).map_or(&[][..], |block| block.stmts.as_slice());
+        let moves = |kind: &StmtKind| matches!(kind, StmtKind::Nc(_) | StmtKind::ModalCall(_));
+        let last = stmts.iter().rev().find(|stmt| stmt.kind == StmtKind::Sync || moves(&stmt.kind));
+        last.is_some_and(|stmt| stmt.kind == StmtKind::Sync && stmt.site.skip.is_none())
+    }
+
     /// Ends the present block.
     pub fn end(&mut self, kind: TermKind, site: SourceInfo) {
         self.reopen();

@@ -45,7 +45,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
             }
             StmtKind::Sync if !waits && stops && early => {
-                say_stop(index, compensates.then_some(&*state), span, context);
+                // The source may have such a block itself, and does the same there.
+                if context.source.statement("lookahead.stop").is_none() {
+                    say_stop(index, compensates.then_some(&*state), span, context);
+                }
                 out.push(Stmt {
                     kind: StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::MachineOnce)] }),
                     site: stmt.site,

@@ -44,6 +44,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         let mut parts: ThinVec<PrintPart> =
                             parts.map(|(n, part)| plain(part, rounded.contains(&(id, at, n)))).collect();
                         if context.target.statement("wait").is_some() {
+                            let waited = stmts.last().is_some_and(|last: &Stmt| {
+                                last.kind == StmtKind::Sync && last.site.skip.is_none()
+                            });
                             if stmt.site.skip.is_none() {
                                 compute_first(&mut parts, &mut next, &mut stmts);
                             }
@@ -52,7 +55,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                                 skip: stmt.site.skip,
                                 ..SourceInfo::default()
                             };
-                            stmts.push(Stmt { kind: StmtKind::Sync, site });
+                            if !waited {
+                                stmts.push(Stmt { kind: StmtKind::Sync, site });
+                            }
                         }
                         let kind = StmtKind::Print { serial: true, parts, stay: false };
                         stmts.push(Stmt { kind, site: stmt.site });

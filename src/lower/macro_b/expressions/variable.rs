@@ -216,7 +216,7 @@ impl<'a> Lowering<'a> {
                 | Sys::OutputWord
         );
         let early = moving && !self.lookahead_limited && self.control.is(Question::LookaheadRunsEarly);
-        if !early || !self.codes.tell_early() {
+        if !early || self.builder.has_waited() || !self.codes.tell_early() {
             return;
         }
         if self.findings.behaviour(Question::SystemReadWaits, span) != Some("true") {

@@ -122,7 +122,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// A lookahead limit is a statement of its own, whatever stands beside it.
+    /// A lookahead limit is a statement of its own, whatever stands beside it. A block that only stops the reading ahead is a wait.
     fn push_nc(&mut self, mut nc: Nc, site: &SourceInfo) {
         if nc.has(Op::LimitLookahead) {
             let limit = nc.word(Role::Lookahead).cloned().unwrap_or(Expr::Number(0.0));
@@ -134,6 +134,9 @@ impl<'a> Lowering<'a> {
             if nc.items.is_empty() {
                 return;
             }
+        }
+        if nc.items == [NcItem::Op(Op::MachineOnce)] && self.control.statement("lookahead.stop").is_some() {
+            return self.builder.push(StmtKind::Sync, site.clone());
         }
         self.builder.push(StmtKind::Nc(nc), site.clone());
     }
