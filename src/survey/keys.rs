@@ -40,27 +40,35 @@ impl AskedSetting {
     }
 }
 
+/// What is found of one setting.
+#[derive(Default)]
+struct Found {
+    programs: BTreeSet<usize>,
+    /// The values that it must have, as their bits.
+    needed: BTreeSet<u64>,
+    places: Vec<String>,
+}
+
 /// The settings that findings name; those that most programs wait for are first.
 pub(super) fn asked(
     places: &Places<'_>,
     controls: [&Control; 2],
     programs: &[ProgramReport],
 ) -> Vec<AskedSetting> {
-    let mut found: BTreeMap<(Side, Arc<str>), (BTreeSet<usize>, BTreeSet<u64>, Vec<String>)> =
-        BTreeMap::new();
+    let mut found: BTreeMap<(Side, Arc<str>), Found> = BTreeMap::new();
     for (at, program) in programs.iter().enumerate() {
         for finding in &program.diagnostics {
             let Some((side, name, value)) = named(finding) else { continue };
-            let (all, values, named) = found.entry((side, name)).or_default();
-            all.insert(at);
-            values.extend(value.map(f64::to_bits));
+            let found = found.entry((side, name)).or_default();
+            found.programs.insert(at);
+            found.needed.extend(value.map(f64::to_bits));
             let place = places.at(program.file, finding.span);
-            if named.len() < NAMED && !named.contains(&place) {
-                named.push(place);
+            if found.places.len() < NAMED && !found.places.contains(&place) {
+                found.places.push(place);
             }
         }
     }
-    let asked = found.into_iter().map(|((side, name), (all, values, places))| {
+    let asked = found.into_iter().map(|((side, name), found)| {
         let control = match side {
             Side::Source => controls[0],
             Side::Target => controls[1],
@@ -71,7 +79,7 @@ pub(super) fn asked(
             None => ("settings", name.trim_start_matches("setting.")),
         };
         let whole = row.map_or(1.0, Setting::whole);
-        let needed = values.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
+        let needed = found.needed.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
         let needed: Vec<String> = needed.map(|value| value.to_string()).collect();
         AskedSetting {
             side,
@@ -80,8 +88,8 @@ pub(super) fn asked(
             values: if needed.is_empty() { row.map_or(Vec::new(), |row| row.values.clone()) } else { needed },
             default: row.and_then(|row| row.default.clone()).filter(|_| side == Side::Source),
             meaning: row.map_or(String::new(), |row| row.meaning.clone()),
-            programs: all.len(),
-            places,
+            programs: found.programs.len(),
+            places: found.places,
         }
     });
     let mut asked: Vec<AskedSetting> = asked.collect();

@@ -28,7 +28,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let in_force = LazyLock::new(|| FoundCodes::of(module));
     let all = look_at_each(module, |index, _| {
         let has_any = shared.may_concern(index, |features| features.has(Feature::Code));
-        has_any.then(|| look(index, module, shared, &in_force)).unwrap_or_default()
+        if has_any { look(index, module, shared, &in_force) } else { Vec::new() }
     });
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     // Programs with words beside such a code: a code that both have may take them otherwise.

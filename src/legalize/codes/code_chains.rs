@@ -41,7 +41,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let shared = &*context;
     let found = look_at_each(module, |index, program| {
         let has_any = shared.may_concern(index, has_codes);
-        has_any.then(|| chains(program, &summaries, shared)).unwrap_or_default()
+        if has_any { chains(program, &summaries, shared) } else { Default::default() }
     });
     let mut changed = Vec::new();
     for (index, (program, chains)) in module.programs.iter_mut().zip(found).enumerate() {
