@@ -13,10 +13,12 @@ pub fn text_ends<'p>(program: &'p Program, cfg: &'p Cfg) -> impl Iterator<Item =
         program.block(*id).is_some_and(|block| {
             // What only jumps lead to and nothing stands in is a label that is missing.
             let there = !block.stmts.is_empty() || id.index() == 0 || falls.contains(id);
-            let stops = block.stmts.iter().any(|stmt| match &stmt.kind {
-                StmtKind::Alarm { number, .. } => number.constant().is_some_and(|number| number >= 1.0),
-                _ => false,
-            });
+            // One that the operator may skip ends nothing.
+            let stops =
+                block.stmts.iter().filter(|stmt| stmt.site.skip.is_none()).any(|stmt| match &stmt.kind {
+                    StmtKind::Alarm { number, .. } => number.constant().is_some_and(|number| number >= 1.0),
+                    _ => false,
+                });
             there && !stops && matches!(block.term.kind, TermKind::Stray)
         })
     })

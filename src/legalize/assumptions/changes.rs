@@ -1,7 +1,7 @@
 //! Tool changes that take Z to the machine's zero by themselves.
 //!
 //! A program rests on it where it goes on after a tool change before it has placed Z, and did not take Z to its zero before
-//! the change. Side conditions: a move of Z alone in absolute coordinates places it; what is not known is taken to rest on it.
+//! the change: by G28 or by G53 Z0. Any other place of the machine, and a second reference position, is none. Side conditions: a move of Z alone in absolute coordinates places it; what is not known is taken to rest on it.
 //! Counter-example: `G1 Z-10.`, `T2 M6`, `G0 X50.`, which crosses the part where the change leaves Z alone.
 
 use super::shop::{are_mills, rests};
@@ -100,10 +100,11 @@ fn step(stmt: &Stmt, state: &mut Modal, height: &mut Height) -> bool {
 
 /// Takes the moves of a block; true where they depend on the height from before.
 fn moved(nc: &Nc, state: &Modal, height: &mut Height) -> bool {
-    let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home));
     let (z, names) = (nc.word(Role::Z).is_some(), nc.names_axis());
-    if (returns || nc.has(Op::MachineOnce)) && (z || returns && !names) {
-        *height = Height { changed: false, home: true };
+    let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Home));
+    let goes = returns || nc.has(Op::Reference2);
+    if goes && (z || !names) || nc.has(Op::MachineOnce) && z {
+        *height = Height { changed: false, home: returns || nc.word(Role::Z).is_some_and(is_zero) && !goes };
         return false;
     }
     if nc.has(Op::SetPosition) {
@@ -119,6 +120,10 @@ fn moved(nc: &Nc, state: &Modal, height: &mut Height) -> bool {
     let places = z && state.op(Group::Distance) == Some(Op::Absolute);
     *height = Height { changed: height.changed && !places, home: height.home && !z };
     !places || others
+}
+
+fn is_zero(value: &Expr) -> bool {
+    matches!(value, Expr::Increments(0.0)) || value.constant() == Some(0.0)
 }
 
 /// True where an expression reads a place along Z.

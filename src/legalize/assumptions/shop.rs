@@ -30,21 +30,13 @@ pub(super) fn are_mills(context: &Context<'_>) -> bool {
 /// Says what programs rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                let span = stmt.site.span;
-                let before = stmt.kind.nc().filter(|nc| names_length(nc)).map(|_| state.clone());
-                state.step(stmt);
-                let Some(nc) = stmt.kind.nc() else { continue };
-                if before.is_some_and(|before| moves_by_code(nc, &before)) {
-                    rests(Question::LengthMoves, index, span, context);
-                }
-                rotary(nc, &state, index, span, context);
-            }
+    facts.each(module, &mut |index, stmt, before, after| {
+        let Some(nc) = stmt.kind.nc() else { return };
+        if names_length(nc) && moves_by_code(nc, before) {
+            rests(Question::LengthMoves, index, stmt.site.span, context);
         }
-    }
+        rotary(nc, after, index, stmt.site.span, context);
+    });
 }
 
 fn names_length(nc: &Nc) -> bool {
@@ -89,9 +81,10 @@ fn rotary(nc: &Nc, after: &Modal, index: usize, span: Span, context: &mut Contex
     if aside || words().next().is_none() {
         return;
     }
-    let within_turn =
-        |value: &Expr| degrees(value, context.source).is_some_and(|a| (0.0..=360.0).contains(&a));
-    if after.op(Group::Distance) != Some(Op::Incremental) && !words().all(within_turn) {
+    // Between angles that are less than half a turn apart every axis goes the same way.
+    let within_half =
+        |value: &Expr| degrees(value, context.source).is_some_and(|a| (0.0..180.0).contains(&a));
+    if after.op(Group::Distance) != Some(Op::Incremental) && !words().all(within_half) {
         rests(Question::RotaryWay, index, span, context);
     }
     let feeds = after.op(Group::Motion).is_some_and(|op| op != Op::Rapid) && !nc.has(Op::RapidOnce);
