@@ -301,7 +301,7 @@ pub struct Setting {
     pub gives: Option<Role>,
     /// The word that the cycles take from the setting where no block says it.
     pub otherwise: Option<Role>,
-    /// What the setting counts, if it counts parts: 10 if its value is in tenths of what the word says.
+    /// How many parts make a whole, if the setting counts parts: 10 if its value is in tenths.
     pub parts: Option<u32>,
     /// The operations that take it.
     #[serde(default)]

@@ -47,7 +47,7 @@ impl TurretWord {
         if offset < 100.0 { station * 100.0 + offset } else { LONG + station * 1000.0 + offset }
     }
 
-    /// The digits for a word in common terms; none where the offset does not fit.
+    /// The digits for a word in common terms, unless its offset has more of them than the machine takes.
     pub fn written(self, common: f64) -> Option<String> {
         let (station, offset) = apart(common);
         let digits = self.digits as usize;

@@ -294,9 +294,9 @@ fn tight(line: &[u8]) -> Vec<u8> {
             _ => {}
         }
         let before = out.last().is_some_and(|sign: &u8| sign.is_ascii_digit() || matches!(sign, b'.' | b']'));
-        let behind = line.get(at + 1).is_some_and(|sign| sign.is_ascii_uppercase() && *sign != b'E');
+        let after = line.get(at + 1).is_some_and(|sign| sign.is_ascii_uppercase() && *sign != b'E');
         let value = line.get(at + 2).is_some_and(|sign| !sign.is_ascii_alphabetic());
-        if depth > 0 || *sign != b' ' || !(before && behind && value) {
+        if depth > 0 || *sign != b' ' || !(before && after && value) {
             out.push(*sign);
         }
     }

@@ -54,7 +54,7 @@ fn digits(value: f64) -> u32 {
     format!("{}", value.abs()).bytes().filter(u8::is_ascii_digit).count() as u32
 }
 
-/// The number rounded to so many digits; none where less than five are left behind the point.
+/// The number rounded to so many digits, unless fewer than five of them would stand after the point.
 fn shortened(value: f64, most: u32) -> Option<f64> {
     let whole = value.abs().max(1.0).log10().floor() as u32 + 1;
     let places = most.checked_sub(whole).filter(|places| *places >= 5)?;

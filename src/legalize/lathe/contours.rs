@@ -94,7 +94,7 @@ fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
     if is_split(program, to) {
         return Err(format!(
             "an M code in N{last}, the last block of the contour, acts otherwise beside a move on the target, and in a block of its own it \
-             would stand behind the contour: take it out, and write it after the block that finishes the contour"
+             would stand after the contour: take it out, and write it after the block that finishes the contour"
         ));
     }
     Ok(())

@@ -16,7 +16,6 @@ pub mod interpolations;
 pub mod lone_steps;
 pub mod other_kind;
 pub mod place;
-pub mod rapid_in_force;
 pub mod roughing;
 pub mod run_outs;
 mod setting_values;

@@ -31,23 +31,15 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Refuses them.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                state.step(stmt);
-                let Some(nc) = stmt.kind.nc() else { continue };
-                if !nc.has(Op::MachineOnce) || !nc.names_axis() {
-                    continue;
-                }
-                let (code, what) = match state.op(Group::Motion) {
-                    Some(Op::Rapid) => continue,
-                    Some(_) => (Code::NoEquivalent, FEEDS),
-                    None => (Code::Conditional, MAY_FEED),
-                };
-                let told = Diagnostic::new(code, stmt.site.span, what).with_help(HELP);
-                context.add_once(index, what, told);
-            }
+    facts.each(module, &mut |index, stmt, _, after| {
+        if !stmt.kind.nc().is_some_and(|nc| nc.has(Op::MachineOnce) && nc.names_axis()) {
+            return;
         }
-    }
+        let (code, what) = match after.op(Group::Motion) {
+            Some(Op::Rapid) => return,
+            Some(_) => (Code::NoEquivalent, FEEDS),
+            None => (Code::Conditional, MAY_FEED),
+        };
+        context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what).with_help(HELP));
+    });
 }

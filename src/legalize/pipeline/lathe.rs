@@ -6,9 +6,10 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
-    interpolations, lone_steps, rapid_in_force, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
-    written_corners, x_counts,
+    interpolations, lone_steps, roughing, run_outs, steps, tap_feeds, thread_ways, threads, written_corners,
+    x_counts,
 };
+use crate::legalize::moves::rapid_in_force;
 
 /// True for a target whose cycles drill along the axis of their plane; those of lathes have passes of their own.
 pub(super) fn is_mill(context: &Context<'_>) -> bool {

@@ -53,17 +53,11 @@ pub(super) fn each(
     mut look: impl FnMut(usize, Span, &Nc, &mut Context<'_>),
 ) {
     let facts = context.modal_facts(module);
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                state.step(stmt);
-                if let Some(nc) = stmt.kind.nc().filter(|nc| drills(nc, &state).is_some()) {
-                    look(index, stmt.site.span, nc, context);
-                }
-            }
+    facts.each(module, &mut |index, stmt, _, after| {
+        if let Some(nc) = stmt.kind.nc().filter(|nc| drills(nc, after).is_some()) {
+            look(index, stmt.site.span, nc, context);
         }
-    }
+    });
 }
 
 /// Where nobody says it of one control, its pecks are taken to go back to the plane; the other's are known to break the chip alone.

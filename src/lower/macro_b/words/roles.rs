@@ -261,7 +261,7 @@ fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMean
         'Q' => has(taps).map(|code| {
             format!(
                 "Q beside {code} is the depth of each peck of a rigid tap, which is not converted: how far a control backs off \
-                 between pecks is a setting of its own (parameters 5200.5 and 5213 of a Fanuc). Tap to the depth in one go, or \
+                 between pecks is a setting of its own. Tap to the depth in one go, or \
                  write the pecks as taps of their own"
             )
         }),
