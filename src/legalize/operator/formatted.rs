@@ -44,9 +44,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         let mut parts: ThinVec<PrintPart> =
                             parts.map(|(n, part)| plain(part, rounded.contains(&(id, at, n)))).collect();
                         if context.target.statement("wait").is_some() {
-                            let waited = stmts.last().is_some_and(|last: &Stmt| {
-                                last.kind == StmtKind::Sync && last.site.skip.is_none()
-                            });
+                            let waited = waited(&stmts);
                             if stmt.site.skip.is_none() {
                                 compute_first(&mut parts, &mut next, &mut stmts);
                             }
@@ -76,6 +74,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     end; make sure that what reads it does not count columns";
         context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
     }
+}
+
+/// True if the moves are waited for already: a wait, and after it nothing that moves.
+fn waited(stmts: &[Stmt]) -> bool {
+    let still =
+        |kind: &StmtKind| matches!(kind, StmtKind::Comment | StmtKind::Assign { target: Place::Var(_), .. });
+    let last = stmts.iter().rev().find(|stmt| !still(&stmt.kind));
+    last.is_some_and(|last| last.kind == StmtKind::Sync && last.site.skip.is_none())
 }
 
 /// Computes what is rounded before the wait that its output needs, where it hangs on no state of the machine: whoever reads
