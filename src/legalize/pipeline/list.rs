@@ -20,7 +20,9 @@ use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{first_increments, joined, start};
-use crate::legalize::offsets::{arc_starts, missing_length, offset_rows, position_length, tool_word};
+use crate::legalize::offsets::{
+    arc_starts, missing_length, offset_numbers, offset_rows, position_length, tool_word,
+};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, dates, modal_reads, most_values, output_codes, output_states,
@@ -387,6 +389,12 @@ const CODES: &[Pass] = &[
             "state",
             "cycle-words",
         ]),
+    Pass::reports(
+        "offset-numbers",
+        "refuses tool offsets that the target does not have",
+        offset_numbers::run,
+    )
+    .when(offset_numbers::concerns),
     Pass::reports(
         "forbidden",
         "refuses codes that the target takes for a fault under others",
