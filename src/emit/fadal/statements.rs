@@ -108,12 +108,20 @@ impl<'p> Emitter<'p> {
             match part {
                 PrintPart::Text(text) => {
                     self.out.push('"');
-                    for c in text.chars() {
+                    let (mut before, mut all) = (' ', text.chars().peekable());
+                    while let Some(c) = all.next() {
                         match c {
-                            '"' => self.out.push('\''),
+                            // One ends the text, and nobody says that the other one begins no comment in it.
+                            '"' | '\'' => {
+                                let inside = |c: char| c.is_alphabetic();
+                                if !inside(before) || !all.peek().is_some_and(|next| inside(*next)) {
+                                    self.out.push(' ');
+                                }
+                            }
                             ' '..='~' => self.out.push(c),
                             c => self.out.push_str(likeness(c).unwrap_or("?")),
                         }
+                        before = c;
                     }
                     self.out.push('"');
                 }

@@ -5,37 +5,47 @@
 
 use super::Emitter;
 use super::lines::Kind;
-use crate::canon::{Op, Role};
+use crate::canon::{Group, Op, Role};
 use crate::dialect::Question;
 use crate::emit::common::spellings::{Code, Operand};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo};
 use smallvec::SmallVec;
 
+/// G codes in one block, at the most: the maker shows five, and says that too many are a fault.
+const G_CODES: usize = 5;
+
+/// Modes that move nothing and take no word, so that they may be said a block before.
+const MODES: [Group; 5] = [Group::Plane, Group::Distance, Group::Units, Group::FeedMode, Group::ReturnPlane];
+
 impl<'p> Emitter<'p> {
-    /// Writes a block of words. G53 stands with no other G code, so those beside it go before it; and a fixture is not chosen
-    /// in the block of an arc (facts/fadal-target.md 5).
+    /// Writes a block of words, or several, where the control takes less in one.
     pub(super) fn block_of_words(&mut self, site: &'p SourceInfo, nc: &Nc) {
-        let is_fixture =
-            |item: &NcItem| matches!(item, NcItem::Op(Op::SelectWork) | NcItem::Word(Role::WorkOffset, _));
-        if nc.has(Op::SelectWork) && is_arc(nc) {
-            let (first, rest): (Vec<_>, Vec<_>) = nc.items.iter().cloned().partition(is_fixture);
-            for items in [first, rest] {
-                self.block_of_words(site, &Nc { items });
-            }
-            return;
-        }
-        let is_g = |op| self.spellings.bare_code(op).is_some_and(|code| !code.is_m());
-        let before = |item: &NcItem| matches!(item, NcItem::Op(op) if *op != Op::MachineOnce && is_g(*op));
-        if nc.has(Op::MachineOnce) && nc.items.iter().any(before) {
-            let (first, rest): (Vec<_>, Vec<_>) = nc.items.iter().cloned().partition(before);
-            for items in [first, rest] {
-                self.block_of_words(site, &Nc { items });
-            }
-            return;
+        if let Some(parts) = self.as_two(nc) {
+            return parts.iter().for_each(|items| self.block_of_words(site, &Nc { items: items.clone() }));
         }
         self.begin(site, Kind::Words);
         self.words(nc);
         self.finish();
+    }
+
+    /// The two blocks that a block becomes, if it has to. A fixture is not chosen in the block of an arc; G53 and G92 stand with
+    /// no other G code, so those beside them go before them; and so do modes of a block with more G codes than the maker
+    /// shows in one (facts/fadal-target.md 1, 5).
+    fn as_two(&self, nc: &Nc) -> Option<[Vec<NcItem>; 2]> {
+        let is_fixture =
+            |item: &NcItem| matches!(item, NcItem::Op(Op::SelectWork) | NcItem::Word(Role::WorkOffset, _));
+        if nc.has(Op::SelectWork) && is_arc(nc) {
+            return Some(split(nc, is_fixture));
+        }
+        let is_g = |op| self.spellings.bare_code(op).is_some_and(|code| !code.is_m());
+        if let Some(alone) = [Op::MachineOnce, Op::SetPosition].into_iter().find(|op| nc.has(*op)) {
+            let beside = |item: &NcItem| matches!(item, NcItem::Op(op) if *op != alone && is_g(*op));
+            return nc.items.iter().any(beside).then(|| split(nc, beside));
+        }
+        let mode = |item: &NcItem| matches!(item, NcItem::Op(op) if MODES.contains(&op.group()) && is_g(*op));
+        let many = nc.ops().filter(|op| is_g(*op)).count() > G_CODES;
+        let some = nc.items.iter().any(mode) && !nc.items.iter().all(mode);
+        (many && some).then(|| split(nc, mode))
     }
 
     /// Writes the words of a block, in the order they were written in.
@@ -211,6 +221,11 @@ impl<'p> Emitter<'p> {
             true => self.out.unmapped(format_args!("a fraction in the word '{role}'")),
         }
     }
+}
+
+/// The items of a block for which this holds, and the others.
+fn split(nc: &Nc, first: impl Fn(&NcItem) -> bool) -> [Vec<NcItem>; 2] {
+    nc.items.iter().cloned().partition::<Vec<_>, _>(first).into()
 }
 
 /// True for a block with an arc, or with the words of one.

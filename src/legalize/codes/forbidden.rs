@@ -8,9 +8,10 @@
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Forbidden};
-use crate::ir::{BlockId, Module, StmtKind};
+use crate::ir::{BlockId, Module, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
+use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// True if the target has such codes.
@@ -40,20 +41,27 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 }
                 for op in nc.ops() {
                     // A code of the same group ends the other one: what was in force until then counts.
-                    let in_force = |other: Op| {
-                        let state = if other.group() == op.group() { &before } else { &state };
-                        state.op(other.group()) == Some(other)
-                    };
-                    let Some(row) = context.target.forbids(op, in_force) else { continue };
-                    let under = row.under.iter().copied().find(|under| in_force(*under));
-                    let what = describe(op, under, row, context.target);
-                    let help = "end it in a block before, or write the part without it";
-                    let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
-                    context.add(index, found);
+                    let state = |other: Op| if other.group() == op.group() { &before } else { &state };
+                    let in_force = |other: Op| state(other).op(other.group()) == Some(other);
+                    check(op, in_force, stmt.site.span, index, context);
                 }
+            }
+            if let TermKind::End { rewind } = block.term.kind {
+                let op = if rewind { Op::EndRewind } else { Op::End };
+                let in_force = |other: Op| state.op(other.group()) == Some(other);
+                check(op, in_force, block.term.site.span, index, context);
             }
         }
     }
+}
+
+/// Refuses a code that is a fault under one in force.
+fn check(op: Op, in_force: impl Fn(Op) -> bool, span: Span, index: usize, context: &mut Context<'_>) {
+    let Some(row) = context.target.forbids(op, &in_force) else { return };
+    let under = row.under.iter().copied().find(|under| in_force(*under));
+    let what = describe(op, under, row, context.target);
+    let help = "end it in a block before, or write the part without it";
+    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
 }
 
 fn describe(op: Op, under: Option<Op>, row: &Forbidden, target: &Control) -> String {
