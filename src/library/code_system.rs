@@ -10,7 +10,7 @@ use super::Input;
 use super::machine_kind::{names_machine, place};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{CODE_SYSTEM, CodeMeaning, Control, Plain};
+use crate::dialect::{CODE_SYSTEM, CodeMeaning, Control, Plain, Start};
 use crate::ir::Module;
 use crate::syntax::{ExprKind, ItemKind, for_each_item, parse_file};
 use crate::text::Span;
@@ -100,6 +100,8 @@ impl<'c> Systems<'c> {
     fn sign(&self, file: usize, input: &Input) -> Option<Sign> {
         let (mut fed, mut faced) = (false, false);
         for block in parse_file(&input.bytes, self.own.entry().parse_items).blocks {
+            // What is said to be in force when programs begin is said in the codes of the assumed one.
+            profile.start = Start::default();
             let mut words = Words::default();
             for_each_item(&block.items, &mut |item| {
                 fed &= !matches!(item.kind, ItemKind::Program(_));
@@ -320,3 +322,11 @@ mod tests {
         assert_eq!(said(site, &["O1\nG79\nM30\n"]), [None]);
     }
 }
+    /// A profile that says what is in force, in the codes of the system that is assumed: G99 is no code for it in the others.
+    #[test]
+    fn what_programs_begin_in_is_said_in_the_assumed_system() {
+        let begins = "[start]\ncodes = \"G54 G18 G0 G21 G99\"";
+        assert!(said(begins, &["O1\nG40\nG92 S3000\nG0 X5.\nM30\n"])[0].is_some());
+        assert_eq!(said(begins, &["O1\nG50 S3000\nG92 X20. Z-5. F1.5\nM30\n"]), [None]);
+    }
+
