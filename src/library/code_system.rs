@@ -51,8 +51,17 @@ pub(super) fn report(module: &Module, inputs: &[Input], control: &Control, found
                 (program.site.span, what)
             }
         };
-        found.push(Diagnostic::new(Code::CodeSystem, span, what).with_help(help.clone()));
+        let told = Diagnostic::new(Code::CodeSystem, span, what).with_help(help.clone());
+        found.push(told.lacking(format!("setting.{CODE_SYSTEM}")));
     }
+}
+
+/// True where another G code system of a lathe's control has a code.
+pub fn is_of_another(control: &Control, code: f64) -> bool {
+    control.open_code_system().is_some_and(|(system, row)| {
+        let systems = Systems::of(control, system, &row.values);
+        systems.others.iter().any(|(_, other)| other.code('G', code, &[]).is_some())
+    })
 }
 
 /// The systems of a control.
@@ -91,6 +100,8 @@ impl<'c> Systems<'c> {
         let others = values.iter().filter(|value| *value != name).filter_map(|value| {
             let mut profile = own.profile().clone();
             profile.settings.insert(CODE_SYSTEM.into(), Plain::Word(value.clone()));
+            // What is said to be in force when programs begin is said in the codes of the assumed one.
+            profile.start = Start::default();
             Some((value.clone(), Control::new(own.entry(), profile).ok()?))
         });
         Self { own, name, others: others.collect() }
@@ -100,8 +111,6 @@ impl<'c> Systems<'c> {
     fn sign(&self, file: usize, input: &Input) -> Option<Sign> {
         let (mut fed, mut faced) = (false, false);
         for block in parse_file(&input.bytes, self.own.entry().parse_items).blocks {
-            // What is said to be in force when programs begin is said in the codes of the assumed one.
-            profile.start = Start::default();
             let mut words = Words::default();
             for_each_item(&block.items, &mut |item| {
                 fed &= !matches!(item.kind, ItemKind::Program(_));
@@ -314,14 +323,6 @@ mod tests {
         assert_eq!(said(profile, &["O1\nG95 G1 Z-2. F.2\nM30\n", other]), [None, None]);
     }
 
-    #[test]
-    fn what_the_profile_says_of_a_code_is_no_sign() {
-        let calls = "[parameters]\n6050 = 77";
-        assert_eq!(said(calls, &["O1\nG77 X1. Z2.\nM30\n", "O9010\nM99\n"]), [None, None]);
-        let site = "[[site]]\ncode = \"G79\"\ntext = \"chuck\"\ndo = \"omit\"";
-        assert_eq!(said(site, &["O1\nG79\nM30\n"]), [None]);
-    }
-}
     /// A profile that says what is in force, in the codes of the system that is assumed: G99 is no code for it in the others.
     #[test]
     fn what_programs_begin_in_is_said_in_the_assumed_system() {
@@ -330,3 +331,11 @@ mod tests {
         assert_eq!(said(begins, &["O1\nG50 S3000\nG92 X20. Z-5. F1.5\nM30\n"]), [None]);
     }
 
+    #[test]
+    fn what_the_profile_says_of_a_code_is_no_sign() {
+        let calls = "[parameters]\n6050 = 77";
+        assert_eq!(said(calls, &["O1\nG77 X1. Z2.\nM30\n", "O9010\nM99\n"]), [None, None]);
+        let site = "[[site]]\ncode = \"G79\"\ntext = \"chuck\"\ndo = \"omit\"";
+        assert_eq!(said(site, &["O1\nG79\nM30\n"]), [None]);
+    }
+}
