@@ -52,10 +52,6 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.pass.moves", "single passes move as docs/lathe.md says"),
     ("machine:lathe.peck.retract", "a peck of a groove goes back by the clearance of the scenario"),
     ("machine:lathe.position.diameter", "a position of X that is read is a diameter"),
-    (
-        "machine:lathe.speed.kept",
-        "a change between G96 and G97 without S brings back the last speed of that mode",
-    ),
     ("machine:lathe.spindle.stands", "a feed a turn while the spindle stands takes no time"),
     ("machine:lathe.taper.turns", "a taper that turns the infeed round is cut all the same"),
     ("machine:lathe.thread.infeed", "a thread without the way of its infeed goes in along one flank"),

@@ -71,7 +71,7 @@ pub use row::Row;
 pub use rows::*;
 pub use site::{SiteCode, Without};
 pub use spelling::{Beside, CodeHead, measures};
-pub use start::StartMode;
+pub use start::{Start, StartMode};
 pub use turret_word::{TurretWord, apart as turret_parts};
 pub use unconfirmed::{Settled, Side, to_confirm};
 pub use variables::{InUse, SameCells, VariableClass};

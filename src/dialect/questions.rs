@@ -245,7 +245,12 @@ questions! {
     CycleEndsByArc "cycle.ends.by.arc" YES, "an arc code ends the drilling cycle in force, where other motion codes do", if "said";
     RoughingEnds "roughing.ends" OneOf(&["along", "levels", "unknown"]), "how the roughing of a contour ends: with a pass along it, always, or level by \
                                                     level, and along it only with an allowance for that pass", if "op:contour.turning";
+    RoughingNose "roughing.nose" OneOf(&["ignored", "counts", "unknown"]), "what nose radius compensation (G41, G42) does while a contour is roughed: nothing, or it \
+                                                                            changes the allowance", if "op:contour.turning";
     RoughingValleys "roughing.valleys" OneOf(&["axes", "word"]), "what says that the contour of a roughing has valleys: the axes that its first block names, or a word of the cycle", if "op:contour.turning";
+    ThreadFeedIsLead "thread.feed.is.lead" YES, "F of a thread is its lead in feed a minute too", if "op:threading";
+    SpeedKept "speed.kept" OneOf(&["mode", "turns", "unknown"]), "the speed after a change between G96 and G97 without S: the last one of that mode, or the turns of the \
+                                                                 moment", if "op:threading";
     ThreadAngles "thread.angles" OneOf(&["0.29.30.55.60.80", "any", "unknown"]), "the angles between the flanks of a thread that the cycle of many passes takes, in \
                                                                                 whole degrees", if "op:threading";
     ThreadFlanks "thread.flanks" OneOf(&["leading.first", "trailing.first", "unknown"]), "in which order the passes of a thread that is cut on both flanks take them: first the one \

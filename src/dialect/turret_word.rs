@@ -22,6 +22,11 @@ pub struct TurretWord {
 }
 
 impl TurretWord {
+    /// True where a setting that the profile does not give says which digits are the offset.
+    pub fn is_open(self) -> bool {
+        self.open && !self.stated
+    }
+
     /// Why a word cannot be divided: written with so many digits that nobody says whose they are, or with more than a station
     /// has.
     pub fn fault(self, written: u16, value: f64) -> Option<&'static str> {

@@ -11,7 +11,7 @@ pub enum Expr {
     Number(f64),
     /// A count of least increments of the address that the value goes to: `X10` on a
     /// control that counts so. Stands only as the whole value of a word or an
-    /// argument, or under one [`Expr::Negate`] there.
+    /// argument, or under one [`Expr::Negate`] there; one increment also behind a computed count (see [`Expr::count`]).
     Increments(f64),
     /// No value.
     Vacant,
@@ -161,6 +161,19 @@ impl Expr {
     /// `a op b`.
     pub fn binary(op: BinOp, a: Expr, b: Expr) -> Self {
         Expr::Binary(op, Box::new([a, b]))
+    }
+
+    /// A computed count of least increments: so many times one.
+    pub fn of_count(count: Expr) -> Self {
+        Self::binary(BinOp::Mul, count, Expr::Increments(1.0))
+    }
+
+    /// The count, where the expression is a computed one of least increments.
+    pub fn count(&self) -> Option<&Expr> {
+        match self {
+            Expr::Binary(BinOp::Mul, parts) if parts[1] == Expr::Increments(1.0) => Some(&parts[0]),
+            _ => None,
+        }
     }
 
     /// The constant's value, where the expression is one (a negated constant too).

@@ -10,7 +10,7 @@ use super::Input;
 use super::machine_kind::{names_machine, place};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{CODE_SYSTEM, CodeMeaning, Control, Plain};
+use crate::dialect::{CODE_SYSTEM, CodeMeaning, Control, Plain, Start};
 use crate::ir::Module;
 use crate::syntax::{ExprKind, ItemKind, for_each_item, parse_file};
 use crate::text::Span;
@@ -51,8 +51,17 @@ pub(super) fn report(module: &Module, inputs: &[Input], control: &Control, found
                 (program.site.span, what)
             }
         };
-        found.push(Diagnostic::new(Code::CodeSystem, span, what).with_help(help.clone()));
+        let told = Diagnostic::new(Code::CodeSystem, span, what).with_help(help.clone());
+        found.push(told.lacking(format!("setting.{CODE_SYSTEM}")));
     }
+}
+
+/// True where another G code system of a lathe's control has a code.
+pub fn is_of_another(control: &Control, code: f64) -> bool {
+    control.open_code_system().is_some_and(|(system, row)| {
+        let systems = Systems::of(control, system, &row.values);
+        systems.others.iter().any(|(_, other)| other.code('G', code, &[]).is_some())
+    })
 }
 
 /// The systems of a control.
@@ -91,6 +100,8 @@ impl<'c> Systems<'c> {
         let others = values.iter().filter(|value| *value != name).filter_map(|value| {
             let mut profile = own.profile().clone();
             profile.settings.insert(CODE_SYSTEM.into(), Plain::Word(value.clone()));
+            // What is said to be in force when programs begin is said in the codes of the assumed one.
+            profile.start = Start::default();
             Some((value.clone(), Control::new(own.entry(), profile).ok()?))
         });
         Self { own, name, others: others.collect() }
@@ -310,6 +321,14 @@ mod tests {
         assert_eq!(told[2], None);
         let profile = "[settings]\ngcode_system = \"B\"";
         assert_eq!(said(profile, &["O1\nG95 G1 Z-2. F.2\nM30\n", other]), [None, None]);
+    }
+
+    /// A profile that says what is in force, in the codes of the system that is assumed: G99 is no code for it in the others.
+    #[test]
+    fn what_programs_begin_in_is_said_in_the_assumed_system() {
+        let begins = "[start]\ncodes = \"G54 G18 G0 G21 G99\"";
+        assert!(said(begins, &["O1\nG40\nG92 S3000\nG0 X5.\nM30\n"])[0].is_some());
+        assert_eq!(said(begins, &["O1\nG50 S3000\nG92 X20. Z-5. F1.5\nM30\n"]), [None]);
     }
 
     #[test]

@@ -250,6 +250,26 @@ fn leave_to_others(found: &mut ProgramCertificate, report: &[Diagnostic]) {
     found.reasons.retain(|reason| reason.why != Why::Condition || !is_asked(&reason.text));
 }
 
+/// What happened, where the block does not show it: an alarm with its number, and anything where both `same` blocks do.
+fn happened(event: &serde_json::Value, same: bool) -> String {
+    let word = |name: &str| {
+        event.get(name).map(|value| value.as_str().map_or_else(|| value.to_string(), Into::into))
+    };
+    let Some(kind) = word("event") else { return String::new() };
+    if kind == "alarm" {
+        let number = word("number").filter(|number| !number.is_empty());
+        let text = word("text").unwrap_or_default();
+        return number.map_or_else(|| format!("alarm: {text}"), |number| format!("alarm {number}: {text}"));
+    }
+    if !same {
+        return String::new();
+    }
+    let shown = ["direction", "speed", "state", "station", "offset", "number", "seconds"];
+    let words = shown.into_iter().filter_map(|name| Some(format!("{name} {}", word(name)?)));
+    let words: Vec<String> = std::iter::once(kind.replace('_', " ")).chain(words).collect();
+    words.join(", ")
+}
+
 /// Writes into a program's report what the verifier found.
 fn apply(program: &mut super::ProgramReport, span: Span, found: &ProgramCertificate) {
     program.verdict = Some(found.outcome);
@@ -266,7 +286,14 @@ fn apply(program: &mut super::ProgramReport, span: Span, found: &ProgramCertific
                 let block = |moment: &Option<verify::Moment>| {
                     moment.as_ref().map_or_else(|| "nothing more".into(), |m| format!("'{}'", m.block))
                 };
-                format!("{}: {} against {}", witness.what, block(&witness.source), block(&witness.target))
+                let same = block(&witness.source) == block(&witness.target);
+                let event = |moment: &Option<verify::Moment>| {
+                    let told = moment.as_ref().map_or_else(String::new, |m| happened(&m.event, same));
+                    if told.is_empty() { told } else { format!(" ({told})") }
+                };
+                let [ours, theirs] =
+                    [&witness.source, &witness.target].map(|moment| block(moment) + &event(moment));
+                format!("{}: {ours} against {theirs}", witness.what)
             });
             let alone = if found.run_alone {
                 "; it was run by itself, because no run of its callers reaches this"

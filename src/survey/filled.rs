@@ -43,15 +43,17 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     }
     for setting in survey.settings.iter().filter(|setting| setting.side == side) {
         let lines = asked.entry(setting.section).or_default();
-        let line = line_of(setting);
+        let line = line_of(setting, control.profile());
         if !lines.contains(&format!("{ASKS} {} = ", setting.name)) {
             lines.push_str(&line);
         }
     }
     let lathe = lathe(survey, side);
     if let Some((system, of)) = lathe.as_ref().and_then(|(_, system)| system.as_ref()) {
-        let line = format!("{ASKS} gcode_system = \"{system}\" # {of}\n");
-        asked.entry("settings").or_default().insert_str(0, &line);
+        let lines = asked.entry("settings").or_default();
+        if !lines.contains(&format!("{ASKS} gcode_system = ")) {
+            lines.insert_str(0, &format!("{ASKS} gcode_system = \"{system}\" # {of}\n"));
+        }
     }
     if side == Side::Source && !survey.start.is_empty() {
         asked.insert("start", start(&survey.start, control.profile().start.codes.as_deref()));
@@ -113,12 +115,14 @@ fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str,
     all
 }
 
-/// A setting that programs wait for, as a line.
-fn line_of(setting: &AskedSetting) -> String {
-    let AskedSetting { name, values, default, meaning, programs, places, .. } = setting;
+/// A setting that programs wait for, as a line. What the profile says already is no key again.
+fn line_of(setting: &AskedSetting, said: &Profile) -> String {
+    let AskedSetting { name, section, values, default, meaning, programs, places, .. } = setting;
     let choice = Settled::choice(name, values);
     let usual = default.as_ref().map_or(String::new(), |default| format!("; {default} if nobody changed it"));
-    format!("{ASKS} {choice} # {} ({}{usual})\n", short(&plain(meaning)), counted(*programs, places))
+    let stated = if *section == "parameters" { &said.parameters } else { &said.settings };
+    let other = if stated.contains_key(name) { "# another value than below: " } else { "" };
+    format!("{ASKS} {other}{choice} # {} ({}{usual})\n", short(&plain(meaning)), counted(*programs, places))
 }
 
 /// `4 programs: a.nc:3, b.nc:1`.
@@ -241,6 +245,7 @@ fn with_machine(text: &str, said: &Profile, lathe: Option<String>, point: Option
         Some(Machine::Lathe) => "axes = [\"X\", \"Z\"] # in the order of the control's axis numbers",
         _ => "axes = [\"X\", \"Y\", \"Z\"] # in the order of the control's axis numbers",
     };
+    let Ok(profile) = Profile::read(text) else { return text.to_owned() };
     let all = [
         (said.title.is_none(), "title = \"\" # what people call the machine"),
         (said.machine.is_none() || lathe.is_some(), kind),
@@ -250,9 +255,8 @@ fn with_machine(text: &str, said: &Profile, lathe: Option<String>, point: Option
         ),
         (point.is_some(), point.as_deref().unwrap_or_default()),
         (said.axes.is_none(), axes),
-        (said.reserved.is_empty(), "reserved = [] # variables that programs must not be given"),
+        (profile.place("reserved").is_none(), "reserved = [] # variables that programs must not be given"),
     ];
-    let Ok(profile) = Profile::read(text) else { return text.to_owned() };
     let missing = all.iter().filter(|(missing, _)| *missing);
     let lines: String = missing.map(|(_, line)| format!("{ASKS} {line}\n")).collect();
     spliced(text, after_dialect(text, &profile), &lines)
@@ -274,8 +278,9 @@ fn codes(text: &mut String, survey: &Survey<'_>) {
     );
     let _ = writeln!(
         text,
-        "{ASKS} target's code the same one), or target = \"M88\", or do = \"omit\", \"stop\", \"same\" or \"alarm\"."
+        "{ASKS} target's code the same one), or target = \"M88\", or do = \"omit\", \"stop\" or \"alarm\"; do = \"same\" only where"
     );
+    let _ = writeln!(text, "{ASKS} the target's own builder gave that very code the same meaning.");
     for code in &survey.codes {
         let programs =
             if code.programs == 1 { String::new() } else { format!("{} programs: ", code.programs) };
@@ -355,6 +360,20 @@ mod tests {
         let again = filled_for(PROGRAM, Some(&answered));
         assert!(!again.contains("#? code = \"M14\"") && again.contains("#? code = \"M38\""), "{again}");
         assert_eq!(Profile::read(&again).unwrap().site.len(), 1);
+    }
+
+    #[test]
+    fn codes_of_another_system_are_asked_by_its_name() {
+        let program = "O1\nT0101\nG95 G90 G0 X50. Z2.\nG92 S3000\nM30\n";
+        let text = filled_for(program, Some("dialect = \"fanuc\"\nmachine = \"lathe\"\n"));
+        assert!(text.contains("#? gcode_system = \"B\" or \"C\" or \"A\""), "{text}");
+        assert!(!text.contains("code = \"G95\""), "{text}");
+    }
+
+    #[test]
+    fn what_the_profile_says_is_no_key_again() {
+        let text = filled_for(PROGRAM, Some("dialect = \"fanuc\"\nreserved = []\n"));
+        assert!(!text.contains("#? reserved"), "{text}");
     }
 
     #[test]

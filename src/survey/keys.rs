@@ -3,7 +3,7 @@
 use super::shape::{NAMED, Places};
 use crate::assume::Predicate;
 use crate::diag::Diagnostic;
-use crate::dialect::{Control, Setting, Side};
+use crate::dialect::{CODE_SYSTEM, Control, Setting, Side};
 use crate::library::ProgramReport;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -85,8 +85,10 @@ pub(super) fn asked(
             side,
             section,
             name: short.to_owned(),
-            values: if needed.is_empty() { row.map_or(Vec::new(), |row| row.values.clone()) } else { needed },
-            default: row.and_then(|row| row.default.clone()).filter(|_| side == Side::Source),
+            values: if needed.is_empty() { values(row, short) } else { needed },
+            default: row
+                .and_then(|row| row.default.clone())
+                .filter(|_| side == Side::Source && short != CODE_SYSTEM),
             meaning: row.map_or(String::new(), |row| row.meaning.clone()),
             programs: found.programs.len(),
             places: found.places,
@@ -95,6 +97,13 @@ pub(super) fn asked(
     let mut asked: Vec<AskedSetting> = asked.collect();
     asked.sort_by_key(|setting| std::cmp::Reverse(setting.programs));
     asked
+}
+
+/// The values that a setting may have. A G code system is asked where codes show another one than the usual.
+fn values(row: Option<&Setting>, name: &str) -> Vec<String> {
+    let Some(row) = row else { return Vec::new() };
+    let usual = row.default.as_ref().filter(|_| name == CODE_SYSTEM);
+    row.values.iter().filter(|value| usual != Some(*value)).chain(usual).cloned().collect()
 }
 
 /// The setting that a finding waits for: of which machine, and the value that it must have, if it must have one.

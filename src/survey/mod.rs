@@ -21,11 +21,11 @@ pub use shape::{Missing, Shape};
 pub use start::AskedStart;
 pub use text::text;
 
-use crate::diag::{Code, Severity};
+use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::library::{
     Conversion, Input, Lock, Options, Outcome, ProgramReport, TakenAsLathe, Told, Understood, convert,
-    outcome, understood,
+    is_of_another, outcome, understood,
 };
 use crate::report::{Fact, Part, Questions};
 use serde::Serialize;
@@ -98,7 +98,13 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         None => as_read(inputs, source, library),
     };
     let now = Outcomes::of(&conversion.programs);
-    let codes = codes::asked(inputs, &places, source, &conversion.programs);
+    let mut codes = codes::asked(inputs, &places, source, &conversion.programs);
+    let other_system = |finding: &Diagnostic| finding.code == Code::CodeSystem;
+    if conversion.programs.iter().flat_map(|program| &program.diagnostics).any(other_system) {
+        // What the codes of another system mean is asked by its name.
+        let number = |code: &str| code.strip_prefix('G').and_then(|number| number.parse().ok());
+        codes.retain(|asked| !number(&asked.code).is_some_and(|code| is_of_another(source, code)));
+    }
     let controls = [source, target.unwrap_or(source)];
     let settings = keys::asked(&places, controls, &conversion.programs);
     for program in &mut conversion.programs {

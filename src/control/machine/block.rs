@@ -20,8 +20,15 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     rigid::enter(machine, command)?;
     state::modes(machine, command, trace);
     let before = auxiliary::Before::of(machine, trace);
+    // What acts with the start of a move acts before a turret that turns beside it (T5).
+    let waits = machine.rules.lathe && command.word(Role::Turret).is_some() && goes_somewhere(command);
+    if waits {
+        auxiliary::with_start(machine, command, trace);
+    }
     tooling::tool(machine, command, trace);
-    auxiliary::with_start(machine, command, trace);
+    if !waits {
+        auxiliary::with_start(machine, command, trace);
+    }
     let compensated = machine.side != Side::Off;
     tooling::compensation(machine, command, trace);
     if compensated && machine.side != Side::Off && is_still(command) {
@@ -48,6 +55,12 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         }
     }
     Ok(())
+}
+
+/// True for a block that moves, or returns.
+fn goes_somewhere(command: &Command) -> bool {
+    let returns = |op: &Op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home | Op::Dwell);
+    command.has_axes() || command.ops.iter().any(returns)
 }
 
 /// True for a block that moves nothing.

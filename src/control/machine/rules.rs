@@ -106,6 +106,8 @@ pub struct Rules {
     pub zero_repeats_stores: Fact<bool>,
     pub zero_repeats_moves: Fact<bool>,
     pub repeats_move: Fact<bool>,
+    /// A change between turns and a surface speed without a speed brings back the last one of that mode; else the turns stay.
+    pub speed_kept: Fact<bool>,
     pub cycle_block_runs: Fact<bool>,
     pub cycle_runs_without_axes: Fact<bool>,
     pub cycle_runs_by_depth: Fact<bool>,
@@ -230,6 +232,16 @@ impl Rules {
             zero_repeats_stores: yes(control, Question::CycleL0Stores, true),
             repeats_move: yes(control, Question::RepeatMoves, false),
             zero_repeats_moves: yes(control, Question::CycleL0Moves, false),
+            speed_kept: fact(
+                control,
+                Question::SpeedKept,
+                |value| match value {
+                    "mode" => Some(true),
+                    "turns" => Some(false),
+                    _ => None,
+                },
+                true,
+            ),
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
                 .or_silent(control, Question::CycleBlockRuns),
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),

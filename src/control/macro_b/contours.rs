@@ -16,7 +16,9 @@ impl Runner<'_> {
         if first <= at && at <= last {
             return Err(self.lathe_stop(Stop::unnamed("a cycle between the blocks of its own contour")));
         }
-        if at < first {
+        // After a finishing the run goes on with the next block, wherever the contour stands (F3).
+        let passed_over = at < first && op != Op::Finish;
+        if passed_over {
             self.nothing_between(at + 1, first)?;
         }
         let here = self.session.trace.at;
@@ -25,7 +27,7 @@ impl Runner<'_> {
         let (machine, trace) = (&mut self.session.machine, &mut self.session.trace);
         let done = machine.cut_contour(op, command, &contour, trace);
         done.map_err(|stop| self.lathe_stop(stop))?;
-        Ok(if at < first { Next::At(last + 1) } else { Next::On })
+        Ok(if passed_over { Next::At(last + 1) } else { Next::On })
     }
 
     /// The alarm of a lathe, with its number on the controls that have those.

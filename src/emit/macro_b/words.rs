@@ -270,6 +270,12 @@ impl<'p> Emitter<'p> {
 
     /// Writes a number that counts least increments, whatever others count here.
     fn counted(&mut self, role: Role, value: &Expr) {
+        if let Some(count) = value.count() {
+            self.place = Place::Word;
+            self.behind_letter(count);
+            self.place = Place::Statement;
+            return;
+        }
         match value {
             Expr::Increments(count) if count.fract() == 0.0 => self.out.number(*count, false),
             Expr::Number(0.0) => self.out.number(0.0, false),

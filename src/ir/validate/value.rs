@@ -11,7 +11,7 @@ impl Check<'_> {
         match inner {
             Expr::Increments(count) if count.is_finite() => {}
             Expr::Increments(_) => self.add(Problem::NotFinite),
-            _ => self.value(e),
+            _ => self.value(e.count().unwrap_or(e)),
         }
     }
 

@@ -4,6 +4,7 @@
 //! the move, as the source does it, wherever no source says that the target does the same in one block. Beside a rapid
 //! move or a wait nobody could tell in the work when spindle or coolant act: where the source does not say, they stay.
 //! Where it matters and no source says it, the code goes where the trade has it, and the fact is named.
+//! A T word of a lathe stays in the block of its move: whether the turret turns before the move, no source says (docs/lathe.md T5).
 //! The blocks of a lathe's contour that the cycle counts on (the first, the last, a corner) stay whole where the target is taken to do the
 //! same, and the fact is named.
 //! Counter-example: `G1 X5. M3 S1000`, which cuts with the spindle turning on one control, and then starts it on another.
@@ -257,21 +258,8 @@ impl Block<'_> {
             self.take(kind, starts, late);
         }
         self.spread(context);
-        self.turret_first();
         self.stop_last();
         facts
-    }
-
-    /// The turret turns before anything else of its block (docs/lathe.md T5): also before what went before the move.
-    fn turret_first(&mut self) {
-        if self.early.is_empty() || !self.nc.has(Op::TurretIndex) {
-            return;
-        }
-        let turns =
-            |item: &NcItem| matches!(item, NcItem::Op(Op::TurretIndex) | NcItem::Word(Role::Turret, _));
-        let (turret, kept) = std::mem::take(&mut self.nc.items).into_iter().partition(turns);
-        self.nc.items = kept;
-        self.early.insert(0, turret);
     }
 
     /// A program stop waits for what goes after the move.

@@ -5,7 +5,7 @@
 //! change is left to the machine, unless its table says nothing of it and something is known to run. What a stop ends
 //! matters after it where the program cuts before it says itself what runs: then the facts that no source confirms are
 //! named.
-//! What a message or a stop leaves running, and the target's stop ends, is started again after it where it is known.
+//! What a message or a stop leaves running, and the target's stop ends, is started again after it where it is known, after an optional stop too.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
 mod after;
@@ -339,10 +339,11 @@ impl Place<'_> {
                     self.tell(pause, there, span, context);
                 }
             }
-            // A stop that may be switched off ends nothing then; one of which nobody knows what it ends may have ended it.
+            // One of which nobody knows what it ends may have ended it.
             let asks = match pause {
                 Pause::Message => true,
-                Pause::Stop => !optional && here.known && here.answer == Some(false),
+                // Where an optional stop is switched off, it runs already what is started again.
+                Pause::Stop => here.known && here.answer == Some(false),
                 _ => false,
             };
             let sure = asks && there.known && there.answer == Some(true);

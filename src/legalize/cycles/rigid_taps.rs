@@ -1,15 +1,17 @@
 //! Rigid taps: by a code of their own on one control, always on another.
 //!
 //! Law: a code before a tap that makes it rigid goes where all taps of the target are rigid, and its speed stays; it is
-//! written before each tap where the target's taps are rigid only by it. Side conditions: the tap is the next thing that
-//! moves, and nothing turns the spindle between; the spindle does not turn to the left before a right-hand tap.
+//! written before each tap where the target's taps are rigid only by it. For a lathe it is written wherever they are not known to be
+//! rigid always, as it does no harm there; live tools get it where their cycle is written. Side conditions: the tap is the next thing
+//! that moves, and nothing turns the spindle between; the spindle does not turn to the left before a right-hand tap; S is a speed of
+//! turns.
 //! Counter-example: a tap without the code on a control that has it feeds beside a spindle that follows nothing, and a
 //! rigid holder takes up no difference.
 
 use super::tap_leads::{Speed, Speeds};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
+use crate::dialect::{Control, Machine, Question};
 use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::features::Features;
@@ -18,17 +20,27 @@ use std::collections::BTreeMap;
 
 /// True if there are taps, and one of the two controls has more to say of rigid ones than the other.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let taps = features.op(Op::RigidTaps) || always(context.source) && features.any_op(Op::is_tap);
+    let taps = always(context.source) && features.any_op(|op| is_asked(op, context.target));
+    if context.target.machine() == Machine::Lathe {
+        return taps && by_code(context.target);
+    }
     taps && !always(context.target) || features.op(Op::RigidTaps)
+}
+
+/// True for a tap that this pass writes the code for: the taps of live tools get theirs with their cycle.
+fn is_asked(op: Op, target: &Control) -> bool {
+    op.is_tap() && !(target.machine() == Machine::Lathe && op.is_live_tap())
 }
 
 fn always(control: &Control) -> bool {
     control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always")
 }
 
+/// True where the code is written: a mill is asked where it is not known, on a lathe it does no harm.
 fn by_code(control: &Control) -> bool {
-    control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "code")
-        && control.code_for(Op::RigidTaps, &BTreeMap::new()).is_some()
+    let told = control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "code");
+    let wanted = told || control.machine() == Machine::Lathe && !always(control);
+    wanted && control.code_for(Op::RigidTaps, &BTreeMap::new()).is_some()
 }
 
 /// Takes the code away, or writes it.
@@ -36,6 +48,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
     let speeds = OverCalls::of(module, &Speeds);
     let keeps = context.target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some();
+    let lathe = context.target.machine() == Machine::Lathe;
     let (all, writes) = (always(context.source), by_code(context.target));
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
@@ -43,27 +56,33 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let mut state = facts.at(index, id);
-            found.extend(misplaced(block, state.clone()));
+            if !lathe {
+                found.extend(misplaced(block, state.clone()));
+            }
+            let mut coded = false;
             let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
             for mut stmt in std::mem::take(&mut block.stmts) {
                 state.step(&stmt);
                 speed.step(&stmt);
                 let rigid = stmt.kind.has_op(Op::RigidTaps);
-                let taps = stmt.kind.nc().is_some_and(|nc| nc.ops().any(Op::is_tap));
-                if (rigid || all && taps) && !always(context.target) {
+                let taps = stmt.kind.nc().is_some_and(|nc| nc.ops().any(|op| is_asked(op, context.target)));
+                coded |= rigid;
+                if (rigid || all && taps) && !always(context.target) && !lathe {
                     context.rests_on_target(index, stmt.site.span, Question::TapRigid);
                 }
                 if rigid && !keeps {
                     changed = true;
                     take(&mut stmt);
                 }
-                if all && taps && writes {
+                if all && taps && writes && !(lathe && coded) {
                     changed = true;
+                    let turns = state.op(Group::SpeedMode) != Some(Op::SurfaceSpeed);
                     match speed {
-                        Speed::Known(speed) => block.stmts.push(code(speed, &stmt)),
-                        Speed::Unknown => found.push((stmt.site.span, SPEED)),
+                        Speed::Known(speed) if turns => block.stmts.push(code(speed, &stmt)),
+                        _ => found.push((stmt.site.span, SPEED)),
                     }
                 }
+                coded &= !taps;
                 block.stmts.push(stmt);
             }
         }

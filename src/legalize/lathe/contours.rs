@@ -9,9 +9,10 @@ use super::straight::{entered_straight, goes_on_to};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, Nc, Program, Stmt, StmtKind};
-use crate::legalize::Context;
 use crate::legalize::features::Features;
+use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
+use std::sync::Arc;
 
 /// True where cycles read contours.
 pub fn concerns(features: &Features) -> bool {
@@ -152,6 +153,26 @@ pub(super) fn has_valleys(program: &Program, nc: &Nc) -> Option<bool> {
     let first = program.blocks.get(block)?.stmts.get(place)?.kind.nc()?;
     let names = |axis: Role, step: Role| first.word(axis).or(first.word(step)).is_some();
     Some(names(Role::X, Role::StepX) && names(Role::Z, Role::StepZ))
+}
+
+/// What is in force where runs begin without compensation of a radius, as after a reset and the end of a program.
+pub(super) fn facts_uncompensated(module: &Module, context: &Context<'_>) -> Arc<ModalFacts> {
+    let mut entry = context.entry.clone();
+    entry.start_in(Op::RadiusOff);
+    context.modal_facts_from(module, &entry)
+}
+
+/// The words of the blocks of a cycle's contour; none where it is not found.
+pub(super) fn contour<'p>(program: &'p Program, nc: &Nc) -> impl Iterator<Item = &'p Nc> {
+    let number = |role: Role| nc.word(role).and_then(|value| value.constant()).map(|number| number as u32);
+    let end = |role: Role| find(program, number(role)?).ok();
+    let ends = end(Role::ContourFirst).zip(end(Role::ContourLast));
+    let stmts =
+        program.blocks.iter().enumerate().flat_map(|(block, found)| {
+            found.stmts.iter().enumerate().map(move |(at, stmt)| ((block, at), stmt))
+        });
+    let inside = move |place| ends.is_some_and(|(begin, end)| (begin..=end).contains(&place));
+    stmts.filter(move |(place, _)| inside(*place)).filter_map(|(_, stmt)| stmt.kind.nc())
 }
 
 /// The only block and statement with a sequence number.

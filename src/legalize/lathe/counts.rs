@@ -7,11 +7,12 @@
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Units};
-use crate::ir::{Block, Expr, Module, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::{BinOp, Block, Expr, Module, Nc, NcItem, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::legalize::moves::increments::{Counted, Texts, each};
 use crate::text::Span;
+use std::collections::BTreeSet;
 
 /// The roles that count increments on some control.
 const ROLES: [Role; 6] =
@@ -56,12 +57,58 @@ pub(super) fn counted(control: &Control, role: Role) -> bool {
 /// Makes lengths of all such words.
 pub fn to_lengths(module: &mut Module, context: &mut Context<'_>) -> bool {
     let roles = lengths(context.source, context.target);
+    may_be_left_out(module, context, &roles, &|value| value.count().is_some_and(Expr::may_be_vacant));
     all(module, context, &roles, |_, _| false)
+}
+
+/// Says where the value is a variable alone, which drops the word where it is vacant: what is computed of it is 0 then.
+fn may_be_left_out(module: &Module, context: &mut Context<'_>, roles: &[Role], open: &dyn Fn(&Expr) -> bool) {
+    for (index, program) in module.programs.iter().enumerate() {
+        if let Some(span) = first_open(program, roles, open) {
+            let told = Diagnostic::new(Code::Conditional, span, VACANT).with_help(VACANT_HELP);
+            context.add_once(index, VACANT, told);
+        }
+    }
+}
+
+/// The first block with such a value. A variable has one that the first blocks of a program without calls give it, and none of it takes
+/// away.
+fn first_open(program: &Program, roles: &[Role], open: &dyn Fn(&Expr) -> bool) -> Option<Span> {
+    let assigned = |stmt: &Stmt| match &stmt.kind {
+        StmtKind::Assign { target: Place::Var(var), value } => Some((*var, value.may_be_vacant())),
+        _ => None,
+    };
+    let stmts = || program.blocks.iter().flat_map(|block| &block.stmts);
+    let calls = program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::Call { .. }));
+    let known =
+        |var: &Var| !calls && !stmts().filter_map(assigned).any(|(found, vacant)| found == *var && vacant);
+    let mut given = BTreeSet::new();
+    for (at, block) in program.blocks.iter().enumerate() {
+        for stmt in &block.stmts {
+            let mut items = stmt.kind.nc().map_or(&[][..], |nc| &nc.items).iter();
+            let asks = items.any(|item| match item {
+                NcItem::Word(role, value) if roles.contains(role) && open(value) => {
+                    !matches!(value.count().unwrap_or(value), Expr::Var(var) if given.contains(var))
+                }
+                _ => false,
+            });
+            if asks {
+                return Some(stmt.site.span);
+            }
+            given.extend(assigned(stmt).map(|(var, _)| var).filter(|var| at == 0 && known(var)));
+        }
+    }
+    None
 }
 
 /// Makes counts of those that count on the target.
 pub fn to_counts(module: &mut Module, context: &mut Context<'_>) -> bool {
     let before = lengths_of(module, context.target);
+    let counts: Vec<Role> = ROLES
+        .into_iter()
+        .filter(|role| counted(context.target, *role) && !counted(context.source, *role))
+        .collect();
+    may_be_left_out(module, context, &counts, &|value| value.count().is_none() && value.may_be_vacant());
     let made = all(module, context, &ROLES, counted);
     let after = lengths_of(module, context.target);
     for ((index, span, length), (_, _, count)) in before.into_iter().zip(after) {
@@ -131,9 +178,9 @@ fn has(nc: &Nc, roles: &[Role]) -> bool {
 /// The value in the other form; none where the unit must be known for it.
 fn changed(value: &Expr, units: Option<Units>, counts: bool, target: &Control) -> Option<Expr> {
     let numbers = target.numbers();
-    let is_count = matches!(value, Expr::Increments(_));
-    // What has its form already; and a computed length, which is no count: the emitter refuses it, whatever the unit.
-    if is_count == counts || (counts && value.constant().is_none()) {
+    let is_count = matches!(value, Expr::Increments(_)) || value.count().is_some();
+    // What has its form already.
+    if is_count == counts {
         return Some(value.clone());
     }
     let size = match units {
@@ -142,7 +189,15 @@ fn changed(value: &Expr, units: Option<Units>, counts: bool, target: &Control) -
         None if value.constant() == Some(0.0) => 1.0,
         None => return None,
     };
+    let parts = Expr::Number((1.0 / size).round());
     match (value, counts) {
+        (value, false) if value.count().is_some() => {
+            let count = value.count().cloned()?;
+            Some(Expr::binary(BinOp::Div, count, parts))
+        }
+        (value, true) if value.constant().is_none() => {
+            Some(Expr::of_count(Expr::binary(BinOp::Mul, value.clone(), parts)))
+        }
         // By a division: 2800 * 0.001 has digits that no one wrote.
         (Expr::Increments(count), false) => Some(Expr::Number(count / (1.0 / size).round())),
         (Expr::Number(number), true) if *number == 0.0 || (number / size).round() != 0.0 => {
@@ -153,5 +208,7 @@ fn changed(value: &Expr, units: Option<Units>, counts: bool, target: &Control) -
     }
 }
 
+const VACANT: &str = "a peck or a depth is a variable alone: where it is vacant, the source has no such word, and the target one of 0";
+const VACANT_HELP: &str = "make sure that it always has a value";
 const ROUNDED: &str = "a peck or a depth that the target counts in least increments has more digits than that: it is rounded to the nearest one";
 const ROUNDED_HELP: &str = "make sure that half of a least increment, and a pass more or less, does not matter; or write it in whole increments";

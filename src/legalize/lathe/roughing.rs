@@ -3,10 +3,10 @@
 //! Law: both leave the allowances on the contour, go as deep each pass, and come back to where they began. What differs is which passes there are:
 //! one control ends along the contour, the other level by level, which may leave steps for the finishing. A person must accept that.
 
-use super::contours::has_valleys;
+use super::contours::{contour, facts_uncompensated, has_valleys};
 use super::settings::takes;
 use crate::assume::Predicate;
-use crate::canon::{Op, Role};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Setting};
 use crate::ir::{Module, Nc, NcItem, StmtKind};
@@ -16,10 +16,14 @@ use crate::legalize::features::Features;
 /// The cycles whose passes may differ.
 const CYCLES: [Op; 2] = [Op::RoughTurning, Op::RoughFacing];
 
+/// The codes that begin compensation of the nose radius.
+const COMPENSATED: [Op; 2] = [Op::RadiusLeft, Op::RadiusRight];
+
 /// True where contours are roughed, and the controls do not end that alike.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let skips = [false, true].into_iter().any(|valleys| apart(context, valleys));
-    CYCLES.iter().any(|op| features.op(*op)) && (!context.agree(Question::RoughingEnds) || skips)
+    let nose = COMPENSATED.iter().any(|op| features.op(*op)) && !context.agree(Question::RoughingNose);
+    CYCLES.iter().any(|op| features.op(*op)) && (!context.agree(Question::RoughingEnds) || skips || nose)
 }
 
 /// True where one control alone leaves out the pass along such a contour.
@@ -29,6 +33,7 @@ fn apart(context: &Context<'_>, valleys: bool) -> bool {
 
 /// Says which roughing ends otherwise.
 pub fn run(module: &Module, context: &mut Context<'_>) {
+    noses(module, context);
     for (index, program) in module.programs.iter().enumerate() {
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
@@ -42,6 +47,35 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         }
     }
 }
+
+/// Says where the radius of the nose is compensated while a contour is roughed: the controls are not known to do the same then.
+fn noses(module: &Module, context: &mut Context<'_>) {
+    let begins = COMPENSATED.iter().any(|op| context.features.op(*op));
+    if !begins || context.agree(Question::RoughingNose) {
+        return;
+    }
+    let facts = facts_uncompensated(module, context);
+    facts.each(module, &mut |index, stmt, before, _| {
+        let Some(nc) = stmt.kind.nc() else { return };
+        let Some(op) = nc.ops().find(|op| CYCLES.contains(op)) else { return };
+        let in_force = before.op(Group::RadiusComp) != Some(Op::RadiusOff);
+        let inside = module.programs.get(index).is_some_and(|program| {
+            let mut blocks = contour(program, nc);
+            blocks.any(|nc| nc.ops().any(|op| COMPENSATED.contains(&op)))
+        });
+        if in_force || inside {
+            context.rests_on_source(index, stmt.site.span, Question::RoughingNose);
+            context.rests_on_target(index, stmt.site.span, Question::RoughingNose);
+            let told = Diagnostic::new(Code::Conditional, stmt.site.span, NOSE).with_help(NOSE_HELP);
+            context.add_once(index, NOSE, told.assuming(Predicate::Substitute(op)).asked_once());
+        }
+    });
+}
+
+const NOSE: &str = "the nose radius is compensated (G41, G42) while this contour is roughed: one of the two controls is taken to change the allowance by the \
+                    radius then, and the other one not";
+const NOSE_HELP: &str = "make sure that the roughing leaves enough; or write G40 before it, and G41 or G42 before G70 alone. 'roughing.nose' under \
+                         [behaviours] of the machine's profile says what it does";
 
 /// How the target ends the roughing of such a contour otherwise. None if it ends it alike. If nobody knows whether the contour has
 /// valleys, what holds for either counts.

@@ -1,17 +1,19 @@
 //! The codes that let threads run out at their end or not, for a target that has no such codes.
 //!
 //! Law: a thread of many passes whose run-out is switched off has a run-out of 0. Side condition: which of the two codes is in force is known: the
-//! last one before the thread says it, with no other way in between, or no program of the library switches it off. Counter-example: a
+//! last one before the thread says it, with no other way in between, or its program switches it off nowhere and is linked with no other one; where
+//! another program of the library does, a person must accept that the end of a program switches it on. Counter-example: a
 //! single pass (G92), whose run-out on the target only a parameter of the machine says.
 
 use super::straight::entered_straight;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{Expr, Module, Nc, NcItem, Stmt, StmtKind, Stmts};
+use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::Context;
-use crate::legalize::features::Features;
-use std::collections::BTreeMap;
+use crate::legalize::features::{Feature, Features};
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
 
 const CODES: [Op; 2] = [Op::ThreadRunOutOn, Op::ThreadRunOutOff];
 
@@ -22,10 +24,17 @@ pub fn concerns(features: &Features, target: &Control) -> bool {
 
 /// Tells threads their run-out by a word, and drops the codes.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let never_off = !context.features.op(Op::ThreadRunOutOff);
-    let single = !never_off && context.features.op(Op::ThreadingPass);
+    let single = context.features.op(Op::ThreadRunOutOff) && context.features.op(Op::ThreadingPass);
+    let linked = linked(module, context);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let straight = entered_straight(program);
+        let never_off =
+            !context.features.op(Op::ThreadRunOutOff) || !linked.contains(&index) && !may_switch_off(program);
+        if never_off && let Some(span) = thread(program).filter(|_| context.features.op(Op::ThreadRunOutOff))
+        {
+            let told = Diagnostic::new(Code::Conditional, span, ELSEWHERE).with_help(ELSEWHERE_HELP);
+            context.add_once(index, ELSEWHERE, told.asked_once());
+        }
         let mut on = never_off.then_some(true);
         for (block, straight) in program.blocks.iter_mut().zip(straight) {
             if !straight {
@@ -49,6 +58,30 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             block.stmts = out;
         }
     }
+}
+
+/// The programs that call others, that others call, or that return to who knows whom.
+fn linked(module: &Module, context: &Context<'_>) -> BTreeSet<usize> {
+    let ways = |program: &Program| {
+        let mut blocks = program.blocks.iter();
+        blocks.any(|block| matches!(block.term.kind, TermKind::Return { .. } | TermKind::Call { .. }))
+    };
+    let own = module.programs.iter().enumerate().filter(|(_, program)| ways(program)).map(|(index, _)| index);
+    let called = context.called(module).pairs(module).into_iter().map(|(_, callee)| callee);
+    let any = context.features.has(Feature::Modal) || context.features.has(Feature::MachineCode);
+    if any { (0..module.programs.len()).collect() } else { own.chain(called).collect() }
+}
+
+/// True where the text of a program switches the run-out off.
+fn may_switch_off(program: &Program) -> bool {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| stmt.kind.has_op(Op::ThreadRunOutOff))
+}
+
+/// The first thread of many passes.
+fn thread(program: &Program) -> Option<Span> {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.find(|stmt| stmt.kind.has_op(Op::Threading)).map(|stmt| stmt.site.span)
 }
 
 /// Takes a statement; why it is refused, and what to do.
@@ -91,6 +124,10 @@ fn ends_straight(nc: &mut Nc) {
     nc.items.push(NcItem::Word(Role::ThreadRunOut, Expr::Number(0.0)));
 }
 
+const ELSEWHERE: &str = "a program of the library switches the run-out of threads off (M24): the threads of the others are taken to run out, as if the end \
+                         of a program, and a reset, switch it on again";
+const ELSEWHERE_HELP: &str =
+    "make sure that it is so on the machine, or write M23 at the start of these programs";
 const BESIDE: &str = "M23 or M24 beside a thread: whether it counts for that thread no source says";
 const SINGLE: &str = "M24 in a library with threads by G92: by what a single pass of the target runs out only a parameter of it says";
 const UNKNOWN: &str = "whether this thread runs out is not known: a program of the library switches that off (M24), and no code before it says \

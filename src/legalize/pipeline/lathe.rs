@@ -6,8 +6,8 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
-    interpolations, lone_steps, roughing, run_outs, steps, tap_feeds, thread_ways, threads, written_corners,
-    x_counts,
+    interpolations, lone_steps, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
+    written_corners, x_counts,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -92,6 +92,12 @@ pub(super) const LATHE: &[Pass] = &[
     .needs(&["steps", "holes"]),
     Pass::rewrites("run-outs", "threads are told that they do not run out by a word", run_outs::run)
         .when(|c, context| run_outs::concerns(c, context.target)),
+    Pass::reports(
+        "lathe-modes",
+        "asks what threads in feed a minute and changes of the speed's mode rest on",
+        modes::run,
+    )
+    .when(|c, _| modes::concerns(c)),
     Pass::edits_some(
         "lathe-cycles",
         "cycles of a lathe take their values where the target does; threads without one are moves",

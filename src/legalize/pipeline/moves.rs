@@ -94,7 +94,7 @@ pub(super) const MOVES: &[Pass] = &[
         "the code for rigid taps stands only where taps are rigid by it",
         rigid_taps::run,
     )
-    .when(|c, context| is_mill(context) && rigid_taps::concerns(c, context)),
+    .when(rigid_taps::concerns),
     Pass::edits("turn-feeds", "taps in feed per turn feed per minute", turn_feeds::run)
         .when(|c, context| is_mill(context) && turn_feeds::concerns(c, context)),
     Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),

@@ -80,6 +80,12 @@ fn spindle(machine: &Machine) -> Option<Turns> {
     })
 }
 
+/// The turns a minute of the spindle where the tool stands.
+pub fn turns_now(machine: &Machine) -> Option<f64> {
+    let minutes = spindle(machine)?.minutes(machine.position[0] - machine.frame.shift(0));
+    (minutes > 0.0).then(|| 1.0 / minutes)
+}
+
 impl Turns {
     /// Minutes that a turn takes at a diameter.
     fn minutes(&self, x: f64) -> f64 {

@@ -1,5 +1,6 @@
 //! The turret, the tool offsets, and what of them a program reads and writes (T1 to T9, Q1).
 
+use super::time::turns_now;
 use super::{Lathe, Offset};
 use crate::canon::{Op, Role, Sys};
 use crate::control::machine::{Command, Machine};
@@ -190,10 +191,12 @@ impl Machine {
         if self.surface_speed == surface {
             return;
         }
+        let turns = turns_now(self);
         self.surface_speed = surface;
         if command.word(Role::Speed).is_none() {
-            self.speed = self.lathe.speeds[usize::from(surface)];
-            trace.doubt("machine:lathe.speed.kept");
+            let kept = self.rules.speed_kept.ask(trace);
+            let held = turns.filter(|_| !kept && !surface);
+            self.speed = held.unwrap_or(self.lathe.speeds[usize::from(surface)]);
             if !command.has(Op::SpindleCw) && !command.has(Op::SpindleCcw) {
                 trace.push(EventKind::Spindle { direction: self.spindle, speed: self.speed, surface });
             }

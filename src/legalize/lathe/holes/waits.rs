@@ -63,6 +63,12 @@ impl Waits {
         let wait = |role: Role, by: f64| nc.word(role).map(|wait| wait.constant().map(|wait| wait * by));
         let waits = wait(Role::CycleDwell, 1.0).or(wait(Role::DwellMs, 1.0)).or(wait(Role::DwellS, 1000.0));
         let other = nc.items.iter().any(|item| match item {
+            // G54 to G59 select a work offset without P; those that P names have numbers from 101 on.
+            NcItem::Word(Role::WorkOffset, number)
+                if number.constant().is_some_and(|number| number < 100.0) =>
+            {
+                false
+            }
             NcItem::Word(role, _) => self.roles.contains(role),
             NcItem::Code(..) => true,
             NcItem::Op(_) => false,

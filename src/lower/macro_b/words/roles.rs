@@ -220,7 +220,27 @@ impl<'a> Lowering<'a> {
             );
             return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
         }
-        self.findings.not_understood(span, message);
+        let told = Diagnostic::new(Code::NotUnderstood, span, message);
+        self.findings.add(match self.spindle_by_word(word, codes) {
+            Some(help) => told.with_help(help),
+            None => told,
+        });
+    }
+
+    /// What to do where a builder's word beside a code of the spindle says which spindle it is: `M3 P11`.
+    fn spindle_by_word(&self, word: &Word, codes: &BlockCodes<'a>) -> Option<String> {
+        let spindle = |op: Op| matches!(op, Op::SpindleCw | Op::SpindleCcw | Op::SpindleStop);
+        let (_, row) = codes.iter().find(|(_, row)| spindle(row.op))?;
+        let ExprKind::Number(number) = &word.value.as_ref()?.kind else { return None };
+        if word.letter != 'P' || word.comma || number.value.fract() != 0.0 {
+            return None;
+        }
+        let code = format!("{} P{}", row.code, number.value);
+        Some(format!(
+            "if P says which spindle it is, name the code with it in the machine's profile: [[site]] with code = \"{code}\", op = \"{}\", and a \
+             text, where it is the one that the target's {} turns; else with a name",
+            row.op, row.code
+        ))
     }
 
     /// Signs of a lathe program that a mill's table would read as something else: `G50 S3000`,

@@ -83,7 +83,9 @@ impl Lowering<'_> {
             _ => Some("a computed T word: on this machine its last digits are not the two of other machines"),
         };
         if let Some(what) = fault {
-            self.findings.not_understood(value.span, what);
+            let found = Diagnostic::new(Code::NotUnderstood, value.span, what);
+            let asks = turret.is_open() && matches!(value.kind, ExprKind::Number(_));
+            self.findings.add(if asks { found.lacking("setting.offset_digits") } else { found });
         }
         match lowered {
             Expr::Number(number) => Expr::Number(turret.read(number)),
@@ -132,9 +134,29 @@ impl Lowering<'_> {
             ),
         ] {
             if found {
-                self.findings.not_understood(span, format!("{what}: axes = [\"X\", \"Z\", ...]"));
+                let what = format!("{what}: axes = [\"X\", \"Z\", ...]");
+                let told = match self.corner_letters() {
+                    Some(name) => {
+                        let number = name.trim_start_matches("parameter.");
+                        let what = format!(
+                            "{what}; if it has none, write \"{number}\" = 1 under [parameters], where its parameter says so"
+                        );
+                        Diagnostic::new(Code::NotUnderstood, span, what).lacking(name)
+                    }
+                    None => Diagnostic::new(Code::NotUnderstood, span, what),
+                };
+                self.findings.add(told);
             }
         }
+    }
+
+    /// The setting that says by which letters corners and angles are written, where the control is not set to plain ones.
+    fn corner_letters(&self) -> Option<String> {
+        let plain = self.control.behaviour(Question::CornerLetters).is_some_and(|row| row.value == "letters");
+        let key = Question::CornerLetters.fact();
+        let mut rows = self.control.dialect().settings.iter();
+        let row = rows.find(|row| row.sets.values().any(|sets| sets.contains_key(key)))?;
+        (!plain).then(|| row.name.clone())
     }
 
     /// M6 of a lathe is not needed, and does nothing of its own (docs/lathe.md T8): it goes. True where nothing else is in its block.

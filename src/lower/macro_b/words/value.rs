@@ -61,14 +61,18 @@ impl<'a> Lowering<'a> {
         Some((role, self.counted(counts, number, "a length", "numbers", value.span)))
     }
 
-    /// A word that counts least increments, and never has a point.
+    /// A word that counts least increments, and never has a point; what is computed is a count too.
     fn counts(&mut self, role: Role, letter: char, value: &'a syntax::Expr) -> Option<(Role, Expr)> {
         let what = match literal(value) {
             Some((number, point)) if number == 0.0 || !point => {
                 return Some((role, Expr::Increments(number)));
             }
             Some(_) => format!("{letter} counts least increments here, and takes no decimal point"),
-            None => format!("{letter} counts least increments here: a computed count is not converted"),
+            None => {
+                let lowered = self.expr(value, At::Word(role));
+                self.vacant_word(value, &lowered);
+                return Some((role, Expr::of_count(lowered)));
+            }
         };
         self.findings.not_understood(value.span, what);
         None
