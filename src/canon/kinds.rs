@@ -172,6 +172,7 @@ impl Op {
                 | Cylinder
                 | ScaleOn
                 | MirrorOn
+                | MirrorOff
                 | RotateOn
                 | StrokeCheckOn
         )

@@ -1,6 +1,7 @@
 //! Checks of the G and M codes.
 
 use super::CodeMeaning;
+use super::overlay::options_apart;
 use super::reader::{Placed, Reader};
 
 /// Codes are spelt as codes, stand once, and no operation has two preferred spellings.
@@ -64,7 +65,8 @@ fn is_address(letter: &str) -> bool {
 /// True where both rows can hold on one machine.
 fn together(a: &CodeMeaning, b: &CodeMeaning) -> bool {
     let apart = |x: &Option<String>, y: &Option<String>| matches!((x, y), (Some(x), Some(y)) if x != y);
-    !apart(&a.machine, &b.machine) && !apart(&a.when, &b.when)
+    let options = options_apart(a.option.as_ref(), b.option.as_ref());
+    !apart(&a.machine, &b.machine) && !apart(&a.when, &b.when) && !options
 }
 
 /// True where the codes, or their runs, meet beside the same words.

@@ -1,6 +1,7 @@
 //! Checks of the system variables.
 
 use super::SystemVariable;
+use super::overlay::options_apart;
 use super::reader::{Placed, Reader};
 
 /// Runs are well formed and no two that can be present together share a number.
@@ -64,7 +65,8 @@ fn span(row: &SystemVariable) -> String {
 /// interleave (#5201 and #5221 have gaps), so numbers are compared one by one.
 fn shares(a: &SystemVariable, b: &SystemVariable) -> bool {
     let apart = |x: &Option<String>, y: &Option<String>| matches!((x, y), (Some(x), Some(y)) if x != y);
-    if a.name != b.name || apart(&a.machine, &b.machine) || apart(&a.when, &b.when) {
+    let options = options_apart(a.option.as_ref(), b.option.as_ref());
+    if a.name != b.name || apart(&a.machine, &b.machine) || apart(&a.when, &b.when) || options {
         return false;
     }
     match (a.first, a.last(), b.first, b.last()) {

@@ -81,6 +81,12 @@ fn options_of(dialect: &Dialect) -> BTreeSet<&str> {
 /// What stands before an option in a row of controls that do not have it.
 const WITHOUT: &str = "not.";
 
+/// True where one of two rows is for controls that have an option, and the other for those that do not.
+pub(super) fn options_apart(a: Option<&String>, b: Option<&String>) -> bool {
+    let without = |x: &String, y: &String| x.strip_prefix(WITHOUT) == Some(y);
+    a.zip(b).is_some_and(|(a, b)| without(a, b) || without(b, a))
+}
+
 /// A profile on its way over a table.
 pub(super) struct Overlay {
     reader: Reader,

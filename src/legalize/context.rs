@@ -363,6 +363,10 @@ impl<'a> Context<'a> {
             return;
         }
         let row = control.behaviour(question);
+        // It has nothing that the question is about, and no profile can answer it.
+        if row.is_none() && question.needs().is_some_and(|needs| needs != "said") {
+            return;
+        }
         if row.is_some_and(|row| row.origin.is_confirmed() && row.value != "unknown") {
             return;
         }

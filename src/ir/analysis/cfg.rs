@@ -1,7 +1,7 @@
 //! The control-flow graph of a program.
 
 use super::dataflow::reached_among;
-use crate::ir::{Block, BlockId, Callee, Module, Program, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Call, Callee, Module, Program, StmtKind, TermKind};
 use crate::syntax::Label;
 use foldhash::HashSet;
 use smallvec::{SmallVec, smallvec};
@@ -202,6 +202,13 @@ fn returns_go_on(succs: &mut Vec<Ways>, mut after: BTreeMap<BlockId, Ways>, prog
 
 fn returns(program: &Program, id: BlockId) -> bool {
     program.block(id).is_some_and(|block| matches!(block.term.kind, TermKind::Return { .. }))
+}
+
+impl Call {
+    /// True where it may run more than once: what it leaves, its next run finds.
+    pub fn repeats(&self) -> bool {
+        self.count.as_ref().is_some_and(|count| count.constant().is_none_or(|count| count > 1.0))
+    }
 }
 
 /// The part of the same program that a block calls at its end, where control goes on, and whether the call may run it

@@ -2,7 +2,7 @@
 
 use super::modal::calls_of;
 use crate::ir::analysis::{Ranges, Summaries, Values};
-use crate::ir::{Block, BlockId, Call, Callee, Class, Expr, Module, StmtKind, TermKind, Var};
+use crate::ir::{Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use foldhash::HashMap;
 use std::collections::{BTreeMap, BTreeSet};
@@ -85,7 +85,7 @@ impl CalledPrograms {
         pairs
     }
 
-    /// By program: the locals that every call of it in the library sets.
+    /// By program: the locals that every call of it in the library sets, and each of its runs leaves so where it repeats.
     pub fn given(&self, module: &Module) -> BTreeMap<usize, BTreeSet<Var>> {
         let mut given: BTreeMap<usize, BTreeSet<Var>> = BTreeMap::new();
         for (index, program) in module.programs.iter().enumerate() {
@@ -95,6 +95,9 @@ impl CalledPrograms {
                     let sets: BTreeSet<Var> =
                         sure.map(|a| Var { class: Class::Local, number: a.local }).collect();
                     for callee in self.by((index, id), call) {
+                        let again = call.repeats().then(|| &module.programs[*callee]);
+                        let kept = |var: &Var| again.is_none_or(|program| !may_empty(program, *var));
+                        let sets: BTreeSet<Var> = sets.iter().copied().filter(kept).collect();
                         let all = given.entry(*callee).or_insert_with(|| sets.clone());
                         all.retain(|var| sets.contains(var));
                     }
@@ -103,6 +106,20 @@ impl CalledPrograms {
         }
         given
     }
+}
+
+/// True where a run of a program may leave a variable vacant that it did not find so.
+pub fn may_empty(program: &Program, var: Var) -> bool {
+    program.blocks.iter().any(|block| {
+        let calls =
+            matches!(&block.term.kind, TermKind::Call { call, .. } if !call.level || var.class.shared());
+        calls
+            || block.stmts.iter().any(|stmt| match &stmt.kind {
+                StmtKind::Assign { target: Place::Var(to), value } => *to == var && value.may_be_vacant(),
+                StmtKind::ModalCall(_) => true,
+                kind => matches!(kind.target(), Some(Place::Indirect(..))),
+            })
+    })
 }
 
 /// The computed calls of a library, by program and block.

@@ -81,8 +81,13 @@ impl Programmed {
                 // A rotation takes the tool along only where it runs the cycle in force.
                 let cycle = modal.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff);
                 let turned = nc.has(Op::RotateOff) || (nc.has(Op::RotateOn) && !cycle);
-                if turned || !nc.ops().all(keeps_coordinates) || modal.may_call() {
+                let moves = nc.ops().all(|op| keeps_coordinates(op) || op == Op::SelectWork);
+                if turned || modal.may_call() || !moves {
                     *self = NOWHERE;
+                } else if !nc.ops().all(keeps_coordinates) {
+                    // An offset that the block names shifts what it was, not what the block's own words say.
+                    *self = NOWHERE;
+                    self.moved([nc.word(Role::X), nc.word(Role::Y)], modal.op(Group::Distance));
                 } else if !nc.has(Op::RotateOn) {
                     self.moved([nc.word(Role::X), nc.word(Role::Y)], modal.op(Group::Distance));
                 }

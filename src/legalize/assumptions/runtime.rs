@@ -8,6 +8,7 @@ use crate::canon::{Func, Group, Op, Pause, Role, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Side, matters};
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
+use crate::ir::analysis::{Assigned, Constant};
 use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
@@ -30,24 +31,33 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         context.source.is(Question::CycleStartsSpindle) && !context.target.is(Question::CycleStartsSpindle);
     // Of a lathe's holes only taps are known to: the others may be those of a live tool, or of none that turns.
     let (starts, taps_start) = (starts && context.source.machine() == Machine::Mill, starts);
+    // A rigid tap turns the spindle itself, whatever stood before it.
+    let rigid = is_rigid(context.target);
     // Rigid taps by a code turn the spindle themselves too.
     let taps = context.features.op(Op::RigidTaps)
         && context.target.machine() == Machine::Mill
         && !context.target.is(Question::CycleStartsSpindle)
         || taps_start;
+    let asks = |nc: &Nc, before: &Modal| {
+        let tapping = is_tapping(nc, before);
+        (starts || taps && tapping) && !(rigid && tapping)
+    };
     let standing = Standing::of(context.source);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     let stood = (cycles && (starts || taps)).then(|| OverCalls::of(module, &standing));
+    let summaries = context.summaries(module);
     for (index, program) in module.programs.iter().enumerate() {
+        let assigned = Assigned::new(program, &summaries);
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
             let mut stands =
                 stood.as_ref().and_then(|stood| stood.at(index, id)).is_some_and(|stands| *stands);
-            for stmt in &block.stmts {
+            for (at, stmt) in block.stmts.iter().enumerate() {
                 let span = stmt.site.span;
-                stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
+                let zero = |e: &Expr| may_be_zero(e, &assigned, (id, at));
+                stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, &zero, context)));
                 if let Some(place) = stmt.kind.target() {
-                    value(&place.read(), index, span, context);
+                    value(&place.read(), index, span, &zero, context);
                 }
                 stands = standing.after(&stmt.kind, stands);
                 if let StmtKind::Nc(nc) = &stmt.kind {
@@ -57,14 +67,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         both(context, index, span, Question::CyclePlanesFrozen);
                     }
                     arc(nc, index, span, context);
-                    if let Some(state) =
-                        state.as_ref().filter(|state| starts || taps && is_tapping(nc, state))
+                    if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
                         && turned_by_cycle(nc, stands, state)
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
                         stands = false;
-                    } else if let Some(state) =
-                        state.as_ref().filter(|state| starts || taps && is_tapping(nc, state))
+                    } else if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
                         && taps_unseen(nc, state)
                     {
                         context.add_once(
@@ -85,7 +93,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 }
             }
             let span = block.term.site.span;
-            block.term.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
+            let zero = |e: &Expr| may_be_zero(e, &assigned, (id, block.stmts.len()));
+            block.term.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, &zero, context)));
             if let TermKind::Call { call, .. } = &block.term.kind
                 && call.count.is_some()
                 && !call.arguments.is_empty()
@@ -96,15 +105,26 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
+/// False where a divisor is a number, or a variable that holds nothing but numbers which the program gives it.
+fn may_be_zero(e: &Expr, assigned: &Assigned<'_>, (id, at): (BlockId, usize)) -> bool {
+    let is_zero = |constant: &Constant| !matches!(constant, Constant::Number(number) if *number != 0.0);
+    match e {
+        Expr::Var(var) => {
+            assigned.at(*var, id, at).is_none_or(|all| all.is_empty() || all.iter().any(is_zero))
+        }
+        e => e.constant().is_none(),
+    }
+}
+
 fn both(context: &mut Context<'_>, program: usize, span: Span, question: Question) {
     context.rests_on_source(program, span, question);
     context.rests_on_target(program, span, question);
     context.must_agree(program, span, question);
 }
 
-fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
+fn value(e: &Expr, index: usize, span: Span, zero: &dyn Fn(&Expr) -> bool, context: &mut Context<'_>) {
     match e {
-        Expr::Binary(BinOp::Div, operands) if operands[1].constant().is_none() => {
+        Expr::Binary(BinOp::Div, operands) if zero(&operands[1]) => {
             both(context, index, span, Question::DivideByZero);
         }
         Expr::Call(Func::Sqrt, arguments) if !arguments.iter().all(never_negative) => {
@@ -188,6 +208,13 @@ impl Standing {
 
 const MAY_STAND: &str = "it is not known here that the spindle turns, and the source's tap starts it by itself; the target's does not: \
      write M3 or M4 before it";
+
+/// True for a mill whose taps are rigid, by a code of their own that turns the spindle, or all of them as by that code.
+fn is_rigid(control: &Control) -> bool {
+    let answer = control.behaviour(Question::TapRigid).map(|row| row.value.as_str());
+    let has_code = control.code_for(Op::RigidTaps, &std::collections::BTreeMap::new()).is_some();
+    has_code && control.machine() == Machine::Mill && matches!(answer, Some("always" | "code"))
+}
 
 /// True where a block begins a tap, or one is in force.
 fn is_tapping(nc: &Nc, before: &Modal) -> bool {

@@ -22,7 +22,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 }
 
 /// True for two mills that are not one and the same.
-pub(super) fn are_mills(context: &Context<'_>) -> bool {
+pub(in crate::legalize) fn are_mills(context: &Context<'_>) -> bool {
     [context.source, context.target].iter().all(|control| control.machine() == Machine::Mill)
         && !context.source.is_same_machine(context.target)
 }
@@ -35,16 +35,22 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         if names_length(nc) && moves_by_code(nc, before) {
             rests(Question::LengthMoves, index, stmt.site.span, context);
         }
+        // On some controls what stands beside such a move gets a block of its own.
+        let told = context.target.behaviour(Question::LengthMoves).is_some_and(|row| row.value != "unknown");
+        if told && nc.has(Op::MachineOnce) && nc.ops().any(|op| op.group() == Group::LengthComp) {
+            context.rests_on_target(index, stmt.site.span, Question::LengthMoves);
+        }
         rotary(nc, after, index, stmt.site.span, context);
     });
 }
 
-fn names_length(nc: &Nc) -> bool {
+/// True where a block has something to say of the tool length.
+pub(in crate::legalize) fn names_length(nc: &Nc) -> bool {
     nc.word(Role::LengthOffset).is_some() || nc.ops().any(|op| op.group() == Group::LengthComp)
 }
 
 /// True where a block changes the tool length and has no word of Z.
-fn moves_by_code(nc: &Nc, before: &Modal) -> bool {
+pub(in crate::legalize) fn moves_by_code(nc: &Nc, before: &Modal) -> bool {
     if nc.word(Role::Z).is_some() {
         return false;
     }
@@ -86,6 +92,7 @@ fn rotary(nc: &Nc, after: &Modal, index: usize, span: Span, context: &mut Contex
         |value: &Expr| degrees(value, context.source).is_some_and(|a| (0.0..180.0).contains(&a));
     if after.op(Group::Distance) != Some(Op::Incremental) && !words().all(within_half) {
         rests(Question::RotaryWay, index, span, context);
+        open_way(index, span, context);
     }
     let feeds = after.op(Group::Motion).is_some_and(|op| op != Op::Rapid) && !nc.has(Op::RapidOnce);
     let drills = after.op(Group::Cycle).is_some_and(Op::is_cycle);
@@ -93,6 +100,25 @@ fn rotary(nc: &Nc, after: &Modal, index: usize, span: Span, context: &mut Contex
         rests(Question::RotaryFeed, index, span, context);
     }
 }
+
+/// A way that is not known of a control may be another one than that of the other: the answer decides whether the
+/// program is the same.
+fn open_way(index: usize, span: Span, context: &mut Context<'_>) {
+    let question = Question::RotaryWay;
+    let open = |control: &Control| control.behaviour(question).is_some_and(|row| row.value == "unknown");
+    let side = match (open(context.source), open(context.target)) {
+        (true, _) => Side::Source,
+        (_, true) => Side::Target,
+        _ => return,
+    };
+    let control = if side == Side::Source { context.source } else { context.target };
+    let finding =
+        Diagnostic::new(Code::Conditional, span, WAY).with_help(control.to_settle(question.fact(), side));
+    context.add_once(index, WAY, finding);
+}
+
+const WAY: &str = "a rotary axis goes to an angle that is not within half a turn, and the way that it goes there is not known of \
+     one of the two controls: it may turn the other way round";
 
 /// The angle of a word, where it is a number.
 fn degrees(value: &Expr, control: &Control) -> Option<f64> {

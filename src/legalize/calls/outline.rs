@@ -93,6 +93,7 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
     let main = reachable(&program, BlockId(0));
     // What nothing reaches stays, and with it what that could jump to.
     let strays = program.ids().filter(|id| !main.contains(id) && !outlined.contains(id));
+    let strays = strays.filter(|id| program.block(*id).is_some_and(says_something));
     let strays: BTreeSet<BlockId> = strays.flat_map(|id| reachable(&program, id)).collect();
     let keep = &main | &strays;
     let (name, site) = (program.name.take(), std::mem::take(&mut program.site));
@@ -102,6 +103,16 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
         program.blocks.iter_mut().for_each(|block| rename_calls(block, &names));
     }
     out.extend(all);
+}
+
+/// False for an empty line that a run would pass by.
+fn says_something(block: &Block) -> bool {
+    let silent = |site: &SourceInfo| site.sequence.is_none() && site.comments.is_empty();
+    let passes = matches!(block.term.kind, TermKind::Jump(_)) && block.term.site == SourceInfo::default();
+    let mut stmts = block.stmts.iter();
+    !(passes
+        && block.labels.is_empty()
+        && stmts.all(|stmt| stmt.kind == StmtKind::Comment && silent(&stmt.site)))
 }
 
 /// What people call a subroutine, where that is a name and no number: it stands beside the program's number.

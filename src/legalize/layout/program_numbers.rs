@@ -1,14 +1,16 @@
 //! Numbers of programs on the target.
 //!
 //! Law: a program keeps its own number if the target has it; else it gets the one that the lock gives it, the one that it had
-//! before an earlier conversion, or the next free one. Side condition: no computed call finds a program that has its number by this conversion; if it may, that is
+//! before an earlier conversion, or the next free one. So does one outside the library that is called by a number which the
+//! target does not have. Side condition: no computed call finds a program that has its number by this conversion; if it may, that is
 //! an assumption. Counter-example: `M98 P#1` and a macro that became O8000.
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{Numbers, Ranges, Summaries};
 use crate::ir::{Block, Call, Callee, Module, StmtKind, TermKind};
-use crate::legalize::{Context, calls_of};
+use crate::legalize::{Context, calls_of, span_of};
 use crate::syntax::ProgramName;
+use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// First number for main programs that have none on the source, and for subroutines made programs.
@@ -97,7 +99,41 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
             }
         }
     }
+    for (name, index, span) in missing(module, max) {
+        let key = name.to_string();
+        let given = chosen.get(&key).or_else(|| earlier.get(&key)).copied();
+        let is_free =
+            |n: &u32| !(taken.contains(n) || kept.contains(n) || bounded && looked_for.contains(*n));
+        let Some(number) = given.or_else(|| free[1].find(is_free)) else { continue };
+        let what = format!(
+            "{} is called as {}: the target's program numbers end at {max}",
+            name.short(),
+            ProgramName::Number(number)
+        );
+        let help = "put a program of the new number that does the same on the target; macroglot.lock keeps the number \
+                    for later runs";
+        context.add(index, Diagnostic::new(Code::OutsideLibrary, span, what).with_help(help));
+        chosen.insert(key, number);
+        out.push((name, number));
+    }
     ProgramNumbers { of: out, chosen }
+}
+
+/// The programs outside the library whose numbers the target does not have, each with the first call of it.
+fn missing(module: &Module, max: u32) -> Vec<(ProgramName, usize, Span)> {
+    let known: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    let mut found: BTreeMap<ProgramName, (usize, Span)> = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            for call in calls_of(block) {
+                let Callee::Program(name @ ProgramName::Number(number)) = &call.callee else { continue };
+                if *number > max && !known.contains(name) {
+                    found.entry(name.clone()).or_insert((index, span_of(block, call)));
+                }
+            }
+        }
+    }
+    found.into_iter().map(|(name, (index, span))| (name, index, span)).collect()
 }
 
 fn computed(call: &Call) -> bool {

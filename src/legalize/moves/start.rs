@@ -184,7 +184,8 @@ fn uses(kind: &StmtKind) -> bool {
         StmtKind::Nc(nc) => nc.items.iter().any(|item| match item {
             NcItem::Word(role, _) => role.is_axis() || role.is_length() || *role == Role::Feed,
             NcItem::Code(..) => true,
-            NcItem::Op(_) => false,
+            // Without axes it goes by way of where the tool stands: a place in coordinates of either mode.
+            NcItem::Op(op) => *op == Op::ReferenceReturn,
         }),
         kind => {
             let mut reads = !matches!(kind, StmtKind::Assign { .. });

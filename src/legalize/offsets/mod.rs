@@ -5,6 +5,7 @@ pub(in crate::legalize) mod arc_starts;
 pub(in crate::legalize) mod external;
 pub(in crate::legalize) mod kept_length;
 pub(in crate::legalize) mod kept_radius;
+pub(in crate::legalize) mod later_lengths;
 pub(in crate::legalize) mod left_shifts;
 pub(in crate::legalize) mod length_radius;
 pub(in crate::legalize) mod missing_length;

@@ -10,7 +10,7 @@ use crate::dialect::Question;
 use crate::ir::{Class, Comment, Module, PrintPart, Program, Stmt, StmtKind, Var, flag_of};
 use crate::legalize::Context;
 use crate::legalize::registers::names::{OF, numbered_name, whose};
-use crate::text::{Span, variable_names, variable_to_set};
+use crate::text::{Span, VariableName, variable_names, variable_to_set};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -46,9 +46,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let asks = before_questions(&block.stmts);
             for (stmt, asks) in block.stmts.iter_mut().zip(asks) {
                 writer.span = stmt.site.span;
+                let asks_there = sets && stops && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Stop));
+                let shown = stmt.site.comments.first().filter(|_| asks_there);
+                let asked = shown.and_then(|shown| writer.asked(&shown.text));
                 let named = writer.comments(&mut stmt.site.comments);
+                if let (Some(shown), Some(register)) = (stmt.site.comments.first_mut(), asked) {
+                    writer.ask(&mut shown.text, &register);
+                }
                 writer.texts(&mut stmt.kind, sets, asks);
-                if sets && stops && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Stop)) {
+                if asks_there {
                     let set = named.filter(|register| writer.flagged.contains(register));
                     set.iter().for_each(|register| writer.set(register));
                 }
@@ -144,8 +150,14 @@ impl Writer<'_, '_> {
             StmtKind::StopMessage { text, .. } => {
                 // A message that begins with a name asks for it: `#5 DEPTH`.
                 let asked = variable_to_set(text, self.prefixes).map(|name| name.at);
+                let asks = self.asked(text).filter(|_| sets);
                 if let Some(register) = self.take_boxed(text, asked).filter(|_| sets) {
                     self.set(&register);
+                }
+                if let Some(register) = asks {
+                    let mut whole = String::from(std::mem::take(text));
+                    self.ask(&mut whole, &register);
+                    *text = whole.into();
                 }
             }
             // What goes to a port may be read by a program, and comes back as it is.
@@ -159,6 +171,23 @@ impl Writer<'_, '_> {
                 });
             }
             _ => {}
+        }
+    }
+
+    /// The register of the variable that a text asks for.
+    fn asked(&self, text: &str) -> Option<String> {
+        let name = variable_to_set(text, self.prefixes)?;
+        self.names.get(&(name.prefix, name.number, String::new())).cloned()
+    }
+
+    /// Leaves no doubt that a text asks for a register: `TYPE #500` does, `TYPE V1` may count something.
+    fn ask(&self, text: &mut String, register: &str) {
+        let prefixes = self.context.target.prefixes();
+        let is_it = |name: &VariableName| format!("{}{}", name.prefix, name.number) == register;
+        if variable_to_set(text, &prefixes).is_none_or(|name| !is_it(&name))
+            && let Some(name) = variable_names(text, &prefixes).into_iter().find(is_it)
+        {
+            text.insert(name.at.end, '=');
         }
     }
 

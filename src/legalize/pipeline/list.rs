@@ -176,6 +176,7 @@ const SOURCE: &[Pass] = &[
         .when(arc_starts::concerns),
     Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
         .when(first_increments::concerns),
+    super::moves::LATER_LENGTHS,
     Pass::reports("shop-facts", "reports what parameters of the machines decide", shop::run)
         .when(shop::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
@@ -185,7 +186,6 @@ const SOURCE: &[Pass] = &[
 ];
 
 const STRUCTURE: &[Pass] = &[
-    // First of all: what only output reads is no matter of the conversion.
     Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
         .when(omitted::concerns),
     Pass::edits("variable-names", "names of variables go where the target shows none", variable_names::run)

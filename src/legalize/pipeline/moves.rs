@@ -10,9 +10,17 @@ use crate::legalize::moves::{
     rotations, shaped, shift, short_arcs, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
-    active_offsets, external, kept_length, kept_radius, left_shifts, length_radius, radius_words,
-    set_position, table_writes, tool_lengths,
+    active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
+    radius_words, set_position, table_writes, tool_lengths,
 };
+
+/// Before the tool lengths are asked about.
+pub(super) const LATER_LENGTHS: Pass = Pass::edits(
+    "later-lengths",
+    "lengths whose codes move Z on the target alone go beside the next move along it",
+    later_lengths::run,
+)
+.when(later_lengths::concerns);
 
 pub(super) const MOVES: &[Pass] = &[
     Pass::rewrites("polar", "polar words become rectangular ones", polar::run)

@@ -76,7 +76,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
 }
 
 enum Finding {
-    Missing(Sys),
+    Missing(Sys, Option<String>),
     /// A variable of the target, by the name of its fact.
     Unconfirmed(Sys, String, String),
     Renumbered(String),
@@ -97,20 +97,20 @@ impl Finding {
         let title = context.target.dialect().title.clone();
         match self {
             // The pass that turns signals round has said so.
-            Finding::Missing(state) if is_signal(state) => {}
-            Finding::Missing(Sys::Act) => {
+            Finding::Missing(state, _) if is_signal(state) => {}
+            Finding::Missing(Sys::Act, _) => {
                 let what = format!("{title} has no variable that stands for one of a builder's code");
                 let help = "name it in the target's profile at the code: sets = { \"VARIABLE\" = \"NAME\" }, or reads, with the \
                             name that the source's profile has";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
             }
-            Finding::Missing(state) => {
+            Finding::Missing(state, note) => {
                 let what = format!("{title} has no variable for '{state}' ({})", state.meaning().trim());
                 let finding = Diagnostic::new(Code::NoEquivalent, span, what);
                 let help = "if the position that its programs read is in these coordinates, write 'position.frame = \"machine\"' \
                             under [behaviours] in the machine profile of the target";
-                let asked = may_be_in_frame(state, context.target);
-                context.add(index, if asked { finding.with_help(help) } else { finding });
+                let help = note.or_else(|| may_be_in_frame(state, context.target).then(|| help.to_owned()));
+                context.add(index, if let Some(help) = help { finding.with_help(help) } else { finding });
             }
             Finding::ReadOnly(state) => {
                 let what = format!("{title} cannot write '{state}'");
@@ -265,7 +265,8 @@ fn read(
         Sys::Euler => Expr::Number(std::f64::consts::E),
         Sys::Empty => Expr::Vacant,
         _ => {
-            found.push((span, Finding::Missing(state)));
+            let row = held(state, &subscripts, source).filter(|_| state == Sys::Modal);
+            found.push((span, Finding::Missing(state, row.and_then(|row| row.origin.note.clone()))));
             Expr::Number(0.0)
         }
     }
@@ -356,7 +357,7 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
             return;
         }
     }
-    found.push((span, Finding::Missing(*state)));
+    found.push((span, Finding::Missing(*state, None)));
 }
 
 /// By what a number of the source's cutter table is multiplied to be one of the target's; none if nobody stated

@@ -85,7 +85,8 @@ const NOWHERE: f64 = 1e-9;
 /// time left out, and of the settings between two actions only those that changed, in one order.
 ///
 /// Which work offset is selected shows in the machine coordinates of the moves, every offset having
-/// values of its own; so the selection itself counts only where a program returns, for its caller.
+/// values of its own; so the selection itself counts only where a program returns, for its caller. A tool length counts
+/// from the next move along its axis on.
 /// Which tool is made ready shows at the next change.
 pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<Act<'r>> {
     let mut seen =
@@ -112,9 +113,10 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
         // Which settings stand before a mode of corners and which after it nobody could tell.
         if !is_mode(&event.what) {
             let (back, tool) = (returns(&event.what), finds_tool(&event.what));
-            let idle = is_idle(&event.what);
+            let (idle, across) = (is_idle(&event.what), is_across(&event.what));
             seen.settle(|kind, event| match kind {
                 Setting::Work => back,
+                Setting::Length => !across,
                 Setting::Ready => tool,
                 // What was found running is nothing that counts before an idle move.
                 Setting::Spindle | Setting::Coolant => !(idle && event.told == Told::Found),
@@ -211,6 +213,15 @@ pub(super) fn prompt<'t>(text: &'t str, control: &Control) -> &'t str {
     match control.prefixes().into_iter().find_map(numbered) {
         Some(rest) => rest.trim_start_matches(|sign: char| sign.is_ascii_digit()).trim_start(),
         None => rest,
+    }
+}
+
+/// True for a straight move that leaves the axis of the tool length where it is: which length is in force shows in none.
+fn is_across(what: &EventKind) -> bool {
+    const ALONG: usize = 2;
+    match what {
+        EventKind::Rapid { from, to } | EventKind::Feed { from, to, .. } => from.0[ALONG] == to.0[ALONG],
+        _ => false,
     }
 }
 

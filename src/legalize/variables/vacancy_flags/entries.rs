@@ -2,7 +2,7 @@
 //! whenever it returns: it is not vacant after the call.
 
 use super::marks::Names;
-use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::computed_calls::{CalledPrograms, may_empty};
 use crate::ir::analysis::{Around, CallGraph, Filled, Holds, Summaries, Vacancy, VarSet};
 use crate::ir::{Call, Class, Expr, Module, Program, TermKind, Var};
 use crate::legalize::calls_of;
@@ -94,18 +94,46 @@ impl Entries {
         self.set[index].is_some() || self.cyclic[index]
     }
 
-    /// Notes a call: a new level has what the arguments give, and all else is as the caller has it.
-    pub fn enter(&mut self, caller: usize, callee: usize, call: &Call, may: Holds<'_, Expr>) {
+    /// Notes a call: a new level has what the arguments give, and all else is as the caller has it. The next run of a
+    /// call that repeats finds what the run before left.
+    pub fn enter(
+        &mut self,
+        caller: usize,
+        callee: usize,
+        call: &Call,
+        left: &Left<'_>,
+        may: Holds<'_, Expr>,
+    ) {
         let gives = |var: &&Var| match call.arguments.iter().rfind(|argument| argument.local == var.number) {
             Some(argument) if call.level && var.class == Class::Local => !may(&argument.value),
             _ if call.level && var.class == Class::Local => false,
             _ => self.named[caller].contains(var) && !may(&Expr::Var(**var)),
         };
-        let set: BTreeSet<Var> = self.named[callee].iter().filter(gives).copied().collect();
+        let keeps = |var: &&Var| !call.repeats() || left.keeps(callee, call, **var);
+        let set: BTreeSet<Var> = self.named[callee].iter().filter(gives).filter(keeps).copied().collect();
         match &mut self.set[callee] {
             Some(all) => all.retain(|var| set.contains(var)),
             none => *none = Some(set),
         }
+    }
+}
+
+/// What runs of called programs leave.
+pub(super) struct Left<'l> {
+    pub module: &'l Module,
+    pub summaries: &'l Summaries,
+    pub filled: &'l Filled,
+}
+
+impl Left<'_> {
+    /// True where a run of the callee leaves a number in a variable that held one when it began.
+    fn keeps(&self, callee: usize, call: &Call, var: Var) -> bool {
+        let Some(name) = &self.module.programs[callee].name else { return false };
+        let own = call.level && var.class == Class::Local;
+        let filled = || self.filled.get(name).is_some_and(|filled| filled.contains(&var));
+        own || !self.summaries.by_program(name).contains(var)
+            || filled()
+            || !may_empty(&self.module.programs[callee], var)
     }
 }
 

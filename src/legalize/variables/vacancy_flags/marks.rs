@@ -2,7 +2,7 @@
 
 use super::MOST_WORDS;
 use super::conditions::asks;
-use super::entries::Entries;
+use super::entries::{Entries, Left};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{Around, Holds, Summaries, Vacancy};
@@ -59,6 +59,7 @@ impl Marks {
         marks.zeroed = vec![BTreeMap::new(); count];
         let named = entries.named.clone();
         let filled = entries.filled(module, &marks.names, summaries);
+        let left = Left { module, summaries, filled: &filled };
         for index in std::mem::take(&mut entries.order) {
             let program = &module.programs[index];
             let set = entries.of_program(index);
@@ -71,6 +72,7 @@ impl Marks {
                 zeroed: BTreeMap::new(),
                 all: &mut gathered,
                 entries: &mut entries,
+                left: &left,
             };
             let around = Around { assigned: &set, called, named: &named[index], filled: &filled };
             own.look(program, &Vacancy::around(program, summaries, around));
@@ -206,6 +208,7 @@ struct Own<'o> {
     zeroed: BTreeMap<BlockId, Var>,
     all: &'o mut Gathered,
     entries: &'o mut Entries,
+    left: &'o Left<'o>,
 }
 
 impl Own<'_> {
@@ -333,7 +336,7 @@ impl Own<'_> {
             self.refused.push((span, what.into()));
         }
         for callee in self.names.callees(self.index, call) {
-            self.entries.enter(self.index, callee, call, may);
+            self.entries.enter(self.index, callee, call, self.left, may);
             if !call.level {
                 self.shares(callee);
             }

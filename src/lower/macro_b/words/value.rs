@@ -144,8 +144,8 @@ impl<'a> Lowering<'a> {
             self.findings.not_understood(value.span, format!("{letter} takes a whole number"));
             return None;
         }
-        // How far a control reads ahead is its own matter.
-        if point && role != Role::Lookahead {
+        // How far a control reads ahead is its own matter; a speed that a control takes with a point is that speed.
+        if point && !matches!(role, Role::Lookahead | Role::Speed) {
             let message = format!("{letter} takes a whole number: some controls stop at the decimal point");
             self.findings.add(Diagnostic::new(Code::WholeWithPoint, value.span, message));
         }

@@ -1,0 +1,190 @@
+//! Codes of the tool length without a word of its axis, where they move nothing on the source, and that axis on the target.
+//!
+//! Law: a length that moves nothing acts first in the next block that places something along its axis, so its code may
+//! stand in that block. Side conditions: both blocks are in one stretch without jumps and calls; what stands between
+//! leaves that axis, the lengths and what coordinates count from alone, and reads no state; the block is a straight move to
+//! an absolute place. Where the block names a length itself, the earlier code did nothing. Counter-example: `G43 H1`,
+//! `G91 Z-5.`, which goes down by 5 from where the tool stands, and by the length too where its code stands beside it.
+
+use crate::canon::{Group, Op, Role};
+use crate::dialect::{Control, Question};
+use crate::ir::{Bank, Block, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
+use crate::legalize::assumptions::shop::{are_mills, moves_by_code, names_length};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
+
+/// True if the library names tool lengths, and their codes move the axis on the target alone.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let moves = |control: &Control| control.is(Question::LengthMoves);
+    are_mills(context)
+        && moves(context.target)
+        && !moves(context.source)
+        && context.source.behaviour(Question::LengthMoves).is_none_or(|row| row.value != "unknown")
+        && (features.any_op(|op| op.group() == Group::LengthComp) || features.role(Role::LengthOffset))
+}
+
+/// Puts the codes beside the moves.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let facts = context.modal_facts(module);
+    let mut changed = false;
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (id, block) in program.ids().zip(&mut program.blocks) {
+            let found = moved(block, facts.at(index, id));
+            changed |= !found.is_empty();
+            put(block, &found);
+        }
+    }
+    changed
+}
+
+/// The statements whose codes go, and those that they go to, where these do not name a length themselves.
+fn moved(block: &Block, mut state: Modal) -> Vec<(usize, Option<usize>)> {
+    let mut found = Vec::new();
+    let mut waits: Option<usize> = None;
+    for (at, stmt) in block.stmts.iter().enumerate() {
+        let before = state.clone();
+        state.step(stmt);
+        let names = stmt.kind.nc().filter(|nc| names_length(nc));
+        let takes = stmt.kind.nc().filter(|nc| takes(nc, &state) && stmt.site.skip.is_none());
+        if let (Some(from), Some(nc)) = (waits, takes) {
+            match names {
+                None => found.push((from, Some(at))),
+                Some(_) if says_all(nc) => found.push((from, None)),
+                Some(_) => {}
+            }
+            waits = None;
+        } else if let Some(nc) = names {
+            let begins = stmt.site.skip.is_none() && moves_by_code(nc, &before) && goes(nc, &state);
+            // What is named anew before it counts was never used.
+            found.extend(waits.filter(|_| begins && says_all(nc)).map(|from| (from, None)));
+            waits = begins.then_some(at);
+        } else if !is_quiet(stmt, &state) {
+            waits = None;
+        }
+    }
+    found
+}
+
+/// True where a block says both what is done with a length and which.
+fn says_all(nc: &Nc) -> bool {
+    nc.has(Op::LengthOff)
+        || (nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus)) && nc.word(Role::LengthOffset).is_some()
+}
+
+fn is_of_length(item: &NcItem) -> bool {
+    match item {
+        NcItem::Op(op) => op.group() == Group::LengthComp,
+        NcItem::Word(role, _) => *role == Role::LengthOffset,
+        NcItem::Code(..) => false,
+    }
+}
+
+/// True for a block whose code of the length may go to a later one.
+fn goes(nc: &Nc, after: &Modal) -> bool {
+    let row = nc.word(Role::LengthOffset).map(Expr::constant);
+    row != Some(None) && is_plain(nc.items.iter().filter(|item| !is_of_length(item)), after)
+}
+
+/// True for a straight move to an absolute place along the axis of the length.
+fn takes(nc: &Nc, after: &Modal) -> bool {
+    let depth = |item: &&NcItem| matches!(item, NcItem::Word(Role::Z, _));
+    let place = nc.word(Role::Z).filter(|value| !value.may_be_vacant() && !reads_state(value));
+    let straight = matches!(after.op(Group::Motion), Some(Op::Rapid | Op::Linear));
+    let row = nc.word(Role::LengthOffset).map(Expr::constant);
+    place.is_some()
+        && row != Some(None)
+        && stands(after)
+        && straight
+        && after.op(Group::Distance) == Some(Op::Absolute)
+        && is_plain(nc.items.iter().filter(|item| !is_of_length(item) && !depth(item)), after)
+}
+
+/// True for a statement that is the same whichever length is in force.
+fn is_quiet(stmt: &Stmt, after: &Modal) -> bool {
+    match &stmt.kind {
+        StmtKind::Comment => true,
+        StmtKind::Nc(nc) => is_plain(nc.items.iter(), after),
+        StmtKind::Assign { target: Place::Var(_), value } => !reads_state(value),
+        _ => false,
+    }
+}
+
+/// True where words and codes move no axis of the length and leave alone what coordinates count from.
+fn is_plain<'n>(mut items: impl Iterator<Item = &'n NcItem>, after: &Modal) -> bool {
+    use Role::{A, ArcI, ArcJ, ArcRadius, B, C, Feed, RadiusOffset, Speed, Tool, WorkOffset, X, Y};
+    let stands = stands(after);
+    items.all(|item| match item {
+        NcItem::Op(op) => keeps(*op),
+        NcItem::Word(role, value) => {
+            let plain = matches!(role, Feed | RadiusOffset | Speed | Tool | WorkOffset);
+            let across = matches!(role, A | ArcI | ArcJ | ArcRadius | B | C | X | Y);
+            (plain || across && stands) && !reads_state(value)
+        }
+        NcItem::Code(..) => false,
+    })
+}
+
+/// True where words of axes are moves, each along its own axis.
+fn stands(after: &Modal) -> bool {
+    let off = |group, op| after.op(group).is_none_or(|there| there == op);
+    !after.may_call()
+        && after.op(Group::Cycle) == Some(Op::CycleOff)
+        && off(Group::Rotation, Op::RotateOff)
+        && off(Group::Scaling, Op::ScaleOff)
+        && off(Group::Mirror, Op::MirrorOff)
+}
+
+fn keeps(op: Op) -> bool {
+    use Group::{Coolant, Distance, FeedMode, PathMode, Plane, RadiusComp, ReturnPlane, SpeedMode, Spindle};
+    let here = matches!(
+        op,
+        Op::Rapid
+            | Op::Linear
+            | Op::ArcCw
+            | Op::ArcCcw
+            | Op::ExactStopOnce
+            | Op::SelectWork
+            | Op::CycleOff
+            | Op::Stop
+            | Op::OptionalStop
+    );
+    let group = op.group();
+    here || matches!(
+        group,
+        Coolant | Distance | FeedMode | PathMode | Plane | RadiusComp | ReturnPlane | SpeedMode | Spindle
+    )
+}
+
+/// True where the machine's state is read, as a position: it may hold the length.
+fn reads_state(value: &Expr) -> bool {
+    let mut found = false;
+    value.walk(&mut |e| {
+        found |= matches!(e, Expr::System(..) | Expr::Indirect(Bank::Numbered, _));
+    });
+    found
+}
+
+/// Takes the codes out of their blocks and puts them where they go.
+fn put(block: &mut Block, found: &[(usize, Option<usize>)]) {
+    let mut gone = Vec::new();
+    for (from, to) in found {
+        let StmtKind::Nc(nc) = &mut block.stmts[*from].kind else { continue };
+        let (codes, rest): (Vec<NcItem>, Vec<NcItem>) =
+            std::mem::take(&mut nc.items).into_iter().partition(is_of_length);
+        if rest.is_empty() {
+            gone.push(*from);
+        }
+        nc.items = rest;
+        if let Some(StmtKind::Nc(nc)) = to.and_then(|to| block.stmts.get_mut(to)).map(|stmt| &mut stmt.kind) {
+            let words = nc.items.iter().position(|item| !matches!(item, NcItem::Op(_)));
+            let at = words.unwrap_or(nc.items.len());
+            nc.items.splice(at..at, codes);
+        }
+    }
+    for at in gone.into_iter().rev() {
+        match block.stmts[at].site.comments.is_empty() {
+            true => drop(block.stmts.remove(at)),
+            false => block.stmts[at].kind = StmtKind::Comment,
+        }
+    }
+}
