@@ -40,7 +40,7 @@ pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     duplicates(reader, &tables.behaviours, Row::full_key);
     duplicates(reader, &tables.arguments, |row| row.letter.to_string());
     duplicates(reader, &tables.arguments, |row| format!("local {}", row.local));
-    duplicates(reader, &tables.settings, |row| format!("{} {:?}", row.name, row.machine));
+    duplicates(reader, &tables.settings, Row::full_key);
     duplicates(reader, &tables.words, |row| format!("{} {:?} {:?}", row.letter, row.machine, row.when));
     forms(reader, tables);
     operators(reader, &tables.operators);

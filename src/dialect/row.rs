@@ -41,7 +41,10 @@ fn limited(key: String, machine: &Option<String>, when: &Option<String>) -> Stri
 }
 
 fn of_machine(key: String, machine: &Option<String>, option: &Option<String>) -> String {
-    format!("{key} {machine:?} {option:?}")
+    match (machine, option) {
+        (None, None) => key,
+        _ => format!("{key} {machine:?} {option:?}"),
+    }
 }
 
 macro_rules! row {
