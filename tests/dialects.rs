@@ -76,7 +76,12 @@ fn what_a_base_names_extends_it() {
 #[test]
 fn the_sources_of_common_rows_are_known() {
     let readme = include_str!("../dialects/README.md");
-    let author = |name: &str| if name == "CTRL" { "SIM".to_owned() } else { name.to_owned() };
+    let author = |name: &str| match name {
+        "CTRL" => "SIM".to_owned(),
+        "NCX" => "GEDIT".to_owned(),
+        "CNCCI" => "MMS".to_owned(),
+        name => name.to_owned(),
+    };
     let mut seen = 0;
     let tables = registry::all().iter().map(|entry| entry.table);
     for row in tables.chain(registry::BASES.iter().map(|base| base.text)).flat_map(written) {
@@ -134,7 +139,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[377, 256, 82, 28], [642, 40, 100, 23], [287, 4, 101, 48], [241, 0, 88, 38]]);
+    assert_eq!(counts, [[382, 261, 79, 30], [639, 40, 99, 25], [287, 7, 100, 51], [241, 0, 89, 39]]);
 }
 
 fn control(name: &str) -> Control {
@@ -166,6 +171,34 @@ fn means(control: &Control, block: &str, op: Op) {
 
 fn words(block: &str) -> Vec<(char, Option<f64>)> {
     block.split(' ').map(|word| (word.chars().next().unwrap(), word[1..].parse().ok())).collect()
+}
+
+// Manual of 2017, p. 383 and 384, and the lathe's G71: 72 is an angle of a mill, and a depth of cut of a lathe.
+#[test]
+fn settings_of_one_number_differ_by_machine() {
+    let mill = profile("dialect = \"haas\"\n[settings]\n72 = \"30\"\n73 = \"on\"");
+    assert_eq!(mill.bare_angle(), Some(30.0));
+    assert!(mill.is(Question::RotationAdds));
+    let lathe = profile("dialect = \"haas\"\nmachine = \"lathe\"\n[settings]\n72 = \"30\"\n73 = \"0.5\"");
+    assert_eq!(lathe.bare_angle(), None);
+    // An angle of more than a turn is none; a Fanuc counts thousandths of a degree.
+    assert_eq!(profile("dialect = \"haas\"\n[settings]\n72 = \"400\"").bare_angle(), None);
+    assert_eq!(profile("dialect = \"fanuc\"\n[parameters]\n5410 = 45000").bare_angle(), Some(45.0));
+}
+
+// B-64114EN/01 p. 194 of lathes, B-63844EN/02 p. 204 of mills; Haas 96-8000 p. 168 of the older control.
+#[test]
+fn an_answer_may_be_for_one_machine() {
+    let after = |text: &str| {
+        let control = profile(text);
+        let row = control.behaviour(Question::ReferenceLength).unwrap();
+        (row.value.clone(), row.origin.is_confirmed())
+    };
+    assert_eq!(after("dialect = \"fanuc\""), ("cancelled.along".to_owned(), false));
+    assert_eq!(after("dialect = \"fanuc\"\nmachine = \"lathe\""), ("kept".to_owned(), true));
+    assert_eq!(after("dialect = \"haas\"\noptions = [\"rotation\"]"), ("cancelled".to_owned(), true));
+    assert_eq!(after("dialect = \"haas\"\noptions = [\"ngc\"]"), ("cancelled".to_owned(), false));
+    assert_eq!(after("dialect = \"haas\""), ("cancelled".to_owned(), false));
 }
 
 // Seed 001, "List of System Variables", "Position Information", "Work Offsets", "Modal Information".

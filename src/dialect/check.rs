@@ -37,10 +37,10 @@ pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     duplicates(reader, &tables.operators, |row| format!("{} {}", row.spelling, row.meaning));
     duplicates(reader, &tables.functions, |row| format!("{}/{}", row.spelling, row.arguments));
     duplicates(reader, &tables.statements, |row| row.name.clone());
-    duplicates(reader, &tables.behaviours, |row| row.question.name().into());
+    duplicates(reader, &tables.behaviours, Row::full_key);
     duplicates(reader, &tables.arguments, |row| row.letter.to_string());
     duplicates(reader, &tables.arguments, |row| format!("local {}", row.local));
-    duplicates(reader, &tables.settings, |row| row.name.clone());
+    duplicates(reader, &tables.settings, Row::full_key);
     duplicates(reader, &tables.words, |row| format!("{} {:?} {:?}", row.letter, row.machine, row.when));
     forms(reader, tables);
     operators(reader, &tables.operators);
@@ -305,12 +305,9 @@ fn free_or_system(reader: &mut Reader, tables: &Tables) {
 fn settings(reader: &mut Reader, tables: &Tables) {
     for placed in &tables.settings {
         let row = &placed.row;
-        if let Some(default) = &row.default
-            && !row.values.is_empty()
-        {
-            let values: Vec<&str> = row.values.iter().map(String::as_str).collect();
-            one_of(reader, placed, default, &values);
-        }
+        let values: Vec<&str> = row.values.iter().map(String::as_str).collect();
+        let default = row.default.as_ref().filter(|_| !values.is_empty());
+        default.into_iter().chain(row.bars.keys()).for_each(|value| one_of(reader, placed, value, &values));
         if let Some(tells) = row.tells.as_deref() {
             one_of(reader, placed, tells, TELLS);
         }
@@ -338,7 +335,9 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
     let rows = (tables.codes.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
         .chain(tables.words.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
         .chain(tables.system.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
-        .chain(tables.forbidden.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)));
+        .chain(tables.forbidden.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
+        .chain(tables.behaviours.iter().map(|p| (&p.place, &p.row.machine, &None)))
+        .chain(tables.settings.iter().map(|p| (&p.place, &p.row.machine, &None)));
     for (place, machine, when) in rows {
         if let Some(machine) = machine
             && !matches!(machine.as_str(), "mill" | "lathe")

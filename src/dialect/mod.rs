@@ -7,6 +7,7 @@
 //! addressed, which code an operation has.
 
 mod acts;
+mod bare_shapes;
 mod check;
 mod check_codes;
 mod check_system;

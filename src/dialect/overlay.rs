@@ -3,7 +3,7 @@
 use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
-use super::{Control, Dialect, Entry, Mark, SystemVariable, registry};
+use super::{Behaviour, Control, Dialect, Entry, Mark, SystemVariable, registry};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,6 +15,7 @@ impl Control {
         let mut dialect = entry.dialect().map_err(<[Diagnostic]>::to_vec)?.clone();
         let mut overlay = Overlay::new(profile);
         overlay.check_dialect(entry);
+        overlay.keep_answers(&mut dialect);
         let settings = overlay.settings(&dialect);
         overlay.apply(&mut dialect, &settings);
         overlay.check_machine(&dialect);
@@ -85,6 +86,17 @@ const WITHOUT: &str = "not.";
 pub(super) fn options_apart(a: Option<&String>, b: Option<&String>) -> bool {
     let without = |x: &String, y: &String| x.strip_prefix(WITHOUT) == Some(y);
     a.zip(b).is_some_and(|(a, b)| without(a, b) || without(b, a))
+}
+
+/// True where an option is there: where the profile does not list the options, each may be.
+fn has(option: &Option<String>, bought: &Option<Vec<String>>) -> bool {
+    match (option, bought) {
+        (Some(option), Some(bought)) => match option.strip_prefix(WITHOUT) {
+            Some(other) => !bought.iter().any(|bought| bought == other),
+            None => bought.contains(option),
+        },
+        _ => true,
+    }
 }
 
 /// A profile on its way over a table.
@@ -161,17 +173,37 @@ impl Overlay {
         }
     }
 
+    fn machine(&self) -> &'static str {
+        self.profile.machine.map_or("mill", super::profile::Machine::name)
+    }
+
+    /// Drops the settings and the answers of another machine. Of several answers to one question it keeps one that names its
+    /// machine or its option, and of those the first.
+    fn keep_answers(&self, dialect: &mut Dialect) {
+        let machine = self.machine();
+        let here = |of: &Option<String>| of.as_deref().is_none_or(|of| of == machine);
+        dialect.settings.retain(|row| here(&row.machine));
+        let rows = std::mem::take(&mut dialect.behaviours);
+        let count = |question| rows.iter().filter(|row| row.question == question).count();
+        let several: BTreeSet<_> =
+            rows.iter().map(|row| row.question).filter(|one| count(*one) > 1).collect();
+        let (open, single): (Vec<Behaviour>, _) =
+            rows.into_iter().partition(|row| several.contains(&row.question));
+        dialect.behaviours = single;
+        for question in several {
+            let rows = open.iter().filter(|row| row.question == question && here(&row.machine));
+            let mut rows = rows.filter(|row| has(&row.option, &self.profile.options));
+            let general = |row: &&Behaviour| row.machine.is_none() && row.option.is_none();
+            let first = rows.clone().find(|row| !general(row)).or_else(|| rows.next());
+            dialect.behaviours.extend(first.map(|row| Behaviour { option: None, ..row.clone() }));
+        }
+        dialect.behaviours.retain(|row| here(&row.machine));
+    }
+
     /// Drops the rows of another machine, of other settings, of options that were not bought.
     fn keep_present(&mut self, dialect: &mut Dialect, settings: &BTreeMap<String, String>) {
-        let machine = self.profile.machine.map_or("mill", super::profile::Machine::name);
-        let bought = self.profile.options.clone();
-        let has = |option: &Option<String>| match (option, &bought) {
-            (Some(option), Some(bought)) => match option.strip_prefix(WITHOUT) {
-                Some(other) => !bought.iter().any(|bought| bought == other),
-                None => bought.contains(option),
-            },
-            _ => true,
-        };
+        let (machine, bought) = (self.machine(), self.profile.options.clone());
+        let has = |option: &Option<String>| has(option, &bought);
         let here = |of: &Option<String>, when: &Option<String>, option: &Option<String>| {
             let set = |when: &String| {
                 conditions(when).all(|(name, mut values)| {

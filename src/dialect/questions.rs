@@ -270,6 +270,7 @@ questions! {
     RotationRunsCycle "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place", if "op:rotate.on";
     RotationDirection "rotation.direction" OneOf(&["ccw", "cw", "unknown"]), "which way a positive rotation turns", if "op:rotate.on";
     RotationIncrements "rotation.increments" OneOf(&["tool", "unknown"]), "the centre of a rotation for increments before the first absolute word after its block: where the tool is", if "op:rotate.on";
+    RotationAdds "rotation.adds" YES, "the angle of a rotation under G91 is added to the angle before it", if "op:rotate.on";
     MCodesPerBlock "m.codes.per.block" OneOf(&["1", "3", "any", "unknown"]), "how many M codes a block may have";
     MForwardActs "m.forward.acts" WHEN, "when the code that turns the spindle clockwise acts, beside a move", if "said";
     MStartActs "m.start.acts" WHEN, "when a code that starts spindle or coolant acts, beside a move";
@@ -295,7 +296,7 @@ questions! {
     UnitsAgree "units.agree" YES, "a code for another unit than the control is set to is an alarm", if "said";
     MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";
     LengthMoves "length.moves" YES, "a code of the tool length without a word of its axis moves the axis by the length", if "said";
-    ChangeRetracts "change.retracts" YES, "a tool change takes Z to the machine's zero first, wherever the program left it", if "said";
+    ChangeRetracts "change.retracts" YES, "a tool change takes Z to the tool change position first, wherever the program left it", if "said";
     RotaryWay "rotary.way" OneOf(&["turns", "shortest", "sign", "unknown"]), "how a rotary axis goes to an absolute angle: turns and all, the shortest way to the place \
                                                                               within one turn, or the way that the sign says", if "said";
     RotaryFeed "rotary.feed" OneOf(&["degrees", "surface", "unknown"]), "what a feed per minute is where a rotary axis moves: degrees, or the way of the surface by a \
@@ -320,6 +321,8 @@ questions! {
     PositionFrame "position.frame" OneOf(&["work", "machine", "unknown"]), "the frame of the position variables";
     RadiusOffsetTable "radius.offset.table" OneOf(&["radius", "diameter", "setting", "unknown"]), "what the cutter table holds";
     OffsetActiveImmediately "offset.active.immediately" YES, "a work offset that is written while selected counts at once";
+    LengthActiveImmediately "length.active.immediately" YES, "a tool length that is written while it is in force counts from the next block on, before its number is named again", if "said";
+    RadiusActiveImmediately "radius.active.immediately" YES, "a cutter radius that is written while it is in force counts from the next block on, before its number is named again", if "said";
     RadiusOffsetActiveTool "radius.offset.active.tool" YES, "cutter compensation without an offset word takes the active tool's", if "said";
     LengthWordPicksRadius "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too", if "said";
     LengthNeverNamed "length.never.named" OneOf(&["zero", "tool", "unknown"]), "the tool length that its code takes where no number was ever named: none, or that of the tool in the spindle", if "op:length.plus";

@@ -40,8 +40,15 @@ fn limited(key: String, machine: &Option<String>, when: &Option<String>) -> Stri
     format!("{key} {machine:?} {when:?}")
 }
 
+fn of_machine(key: String, machine: &Option<String>, option: &Option<String>) -> String {
+    match (machine, option) {
+        (None, None) => key,
+        _ => format!("{key} {machine:?} {option:?}"),
+    }
+}
+
 macro_rules! row {
-    ($($type:ident $section:literal $kind:literal |$row:ident| $key:expr $(, $limits:ident)?;)*) => {$(
+    ($($type:ident $section:literal $kind:literal |$row:ident| $key:expr $(, $limits:ident $column:ident)?;)*) => {$(
         impl Row for $type {
             const SECTION: &'static str = $section;
             const KIND: &'static str = $kind;
@@ -50,7 +57,7 @@ macro_rules! row {
                 $key
             }
             $(fn full_key(&self) -> String {
-                $limits(self.key(), &self.machine, &self.when)
+                $limits(self.key(), &self.machine, &self.$column)
             })?
             fn origin(&self) -> &Origin {
                 &self.origin
@@ -76,23 +83,23 @@ row! {
             Some(word) => format!("{word}/{}", first(&row.ops)),
             None => format!("{}/{}", first(&row.under), first(&row.ops)),
         }
-    }, limited;
+    }, limited when;
     Operator "operators" "operator" |row| row.meaning.clone();
     Function "functions" "function" |row| match row.arguments {
         1 => row.function.name().into(),
         n => format!("{}/{n}", row.function),
     };
     Statement "statements" "statement" |row| row.name.clone();
-    Behaviour "behaviours" "behaviour" |row| row.question.name().into();
+    Behaviour "behaviours" "behaviour" |row| row.question.name().into(), of_machine option;
     InUse "in_use" "in_use" |row| format!("{}{}", row.name, row.first);
     SameCells "same_cells" "same_cells" |row| format!("{}{}", row.name, row.first);
     VariableClass "variables" "variable" |row| format!("{}{}", row.name, row.first);
     SystemVariable "system" "system" |row| match row.first {
         Some(first) => format!("{}{first}", row.name),
         None => row.name.clone(),
-    }, limited;
-    WordMeaning "words" "word" |row| row.letter.clone(), limited;
-    CodeMeaning "codes" "code" |row| row.code.clone(), limited;
+    }, limited when;
+    WordMeaning "words" "word" |row| row.letter.clone(), limited when;
+    CodeMeaning "codes" "code" |row| row.code.clone(), limited when;
     Argument "arguments" "argument" |row| row.letter.to_string();
-    Setting "settings" "setting" |row| row.name.clone();
+    Setting "settings" "setting" |row| row.name.clone(), of_machine machine;
 }

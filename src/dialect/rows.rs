@@ -104,9 +104,13 @@ pub struct Behaviour {
     /// Where the answer is unknown: those that a source leaves open between.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub one_of: Vec<String>,
-    /// The option that the answer is `true` by; without it it is `false`.
+    /// The option that the answer is `true` by; without it it is `false`. Of several rows of one question: the option, or
+    /// `not.` and the option, that a control has with this answer.
     #[serde(default)]
     pub option: Option<String>,
+    /// The kind of machine that it is the answer for: `mill`, `lathe`; absent for both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine: Option<String>,
     /// Where it comes from.
     #[serde(skip_deserializing)]
     pub origin: Origin,
@@ -312,6 +316,12 @@ pub struct Setting {
     pub through: Option<u32>,
     /// For a setting that gives a code a program: the code whose number is its value.
     pub alias: Option<AliasRule>,
+    /// The kind of machine that has it: `mill`, `lathe`; absent for both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine: Option<String>,
+    /// By value: the operations that mean something then that no row says; none for every move.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub bars: BTreeMap<String, Vec<Op>>,
     /// Where it comes from.
     #[serde(skip_deserializing)]
     pub origin: Origin,

@@ -150,7 +150,7 @@ fn answer(dialect: &mut Dialect, question: Question, value: String) {
     let note = open.then(|| "the machine profile leaves it open".into());
     let mark = if open { Mark::Unconfirmed } else { Mark::Confirmed };
     let origin = Origin { mark, ..Origin::of_profile(note) };
-    let row = Behaviour { question, value, one_of: Vec::new(), option: None, origin };
+    let row = Behaviour { question, value, one_of: Vec::new(), option: None, machine: None, origin };
     match dialect.behaviours.iter_mut().find(|row| row.question == question) {
         Some(old) => *old = row,
         None => dialect.behaviours.push(row),

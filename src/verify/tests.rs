@@ -381,7 +381,7 @@ fn ways_that_constants_exclude_are_not_missed() {
 #[test]
 fn facts_are_reasons_that_say_where() {
     let program = "O1\nG0X1.\n#100=500\nG4P#100\nM30\n";
-    let found = within("fanuc", program, program);
+    let found = within("haas", program, program);
     let texts: Vec<&str> = found.reasons.iter().map(|reason| reason.text.as_str()).collect();
     assert!(
         texts.iter().any(|text| {

@@ -65,6 +65,8 @@ pub struct Machine {
     frame: Frame,
     /// True where the work offset in force was written since it was selected.
     stale: bool,
+    /// True where the tool length in force was written since it was named.
+    stale_length: bool,
     /// Program coordinates, millimetres, at which the last rotation found the machine: without
     /// the rotation before it.
     unturned: Axes,
@@ -136,6 +138,7 @@ impl Machine {
             probed: scenario.start,
             frame: Frame::new(scenario),
             stale: false,
+            stale_length: false,
             unturned: scenario.start,
             fresh_rotation: false,
             work_offsets: scenario.work_offsets.clone(),

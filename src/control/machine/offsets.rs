@@ -79,9 +79,12 @@ impl Machine {
             _ => tool.length = value,
         }
         trace.push(EventKind::Write { state, subscripts: vec![number], value });
-        let changes = number == self.length_offset && self.length_value() != self.frame.length;
-        if changes && self.rules.offset_acts_at_once.ask(trace) {
-            self.frame.length = self.length_value();
+        if number == self.length_offset && self.length_value() != self.frame.length {
+            // Nobody can tell before something is placed by it, if it is not named anew until then.
+            self.stale_length = true;
+            if self.rules.length_acts_at_once.peek() {
+                self.frame.length = self.length_value();
+            }
         }
     }
 

@@ -113,6 +113,12 @@ pub struct Rules {
     pub cycle_runs_by_depth: Fact<bool>,
     pub rotation_runs_cycle: Fact<bool>,
     pub rotation_is_ccw: Fact<bool>,
+    /// The angle of a rotation in increments adds to the one in force.
+    pub rotation_adds: Fact<bool>,
+    /// The angle of a rotation and the factor of a scaling that do not say it.
+    pub bare_shapes: [Option<f64>; 2],
+    /// A tool length that is written while it is in force counts at once.
+    pub length_acts_at_once: Fact<bool>,
     /// Increments right after a rotation turn about where the tool is.
     pub first_increments: Fact<()>,
     /// Drilling cycles run in any plane; else under G17 alone.
@@ -247,6 +253,11 @@ impl Rules {
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),
             cycle_runs_by_depth: yes(control, Question::CycleRunsByDepth, false),
             rotation_runs_cycle: yes(control, Question::RotationRunsCycle, false),
+            rotation_adds: yes(control, Question::RotationAdds, false)
+                .or_silent(control, Question::RotationAdds),
+            bare_shapes: [control.bare_angle(), control.bare_factor()],
+            length_acts_at_once: yes(control, Question::LengthActiveImmediately, true)
+                .or_silent(control, Question::LengthActiveImmediately),
             first_increments: fact(control, Question::RotationIncrements, only("tool"), ())
                 .or_silent(control, Question::RotationIncrements),
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),

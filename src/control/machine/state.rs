@@ -110,19 +110,23 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
 fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let (first, second, _) = machine.plane.axes();
     machine.unturned = machine.frame.program(&machine.position);
-    machine.frame.rotation = None;
+    let before = machine.frame.rotation.take().map(|turned| turned.degrees);
     machine.fresh_rotation = command.has_axes();
     let mut centre = machine.frame.program(&machine.position);
     for (axis, value) in machine.named_axes(command) {
         centre[axis] = if machine.incremental { centre[axis] + value } else { value };
     }
-    let angle = command.word(Role::Angle);
+    let [bare_angle, _] = machine.rules.bare_shapes;
+    let angle = command.word(Role::Angle).or(bare_angle);
     if angle.is_none() {
         trace.doubt("machine:shape.from.setting");
     }
     let angle = angle.unwrap_or(0.0);
-    let degrees = if machine.rules.rotation_is_ccw.ask(trace) { angle } else { -angle };
+    let mut degrees = if machine.rules.rotation_is_ccw.ask(trace) { angle } else { -angle };
     if machine.incremental {
+        if let Some(before) = before.filter(|_| machine.rules.rotation_adds.ask(trace)) {
+            degrees += before;
+        }
         trace.doubt("machine:rotation.incremental");
     }
     let centre = (centre[first], centre[second]);
@@ -134,12 +138,14 @@ fn scale(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     for (axis, value) in machine.named_axes(command) {
         centre[axis] = value;
     }
-    let factor = command.word(Role::Scale).unwrap_or(1.0);
+    let [_, bare_factor] = machine.rules.bare_shapes;
+    let of_axes = [Role::ScaleX, Role::ScaleY, Role::ScaleZ].iter().any(|role| command.word(*role).is_some());
+    let factor = command.word(Role::Scale).or(bare_factor.filter(|_| !of_axes)).unwrap_or(1.0);
     let mut factors = [1.0; AXES];
     for (own, role) in factors.iter_mut().zip([Role::ScaleX, Role::ScaleY, Role::ScaleZ]) {
         *own = command.word(role).unwrap_or(factor);
     }
-    if command.word(Role::Scale).is_none() && factors == [1.0; AXES] {
+    if command.word(Role::Scale).is_none() && bare_factor.is_none() && factors == [1.0; AXES] {
         trace.doubt("machine:shape.from.setting");
     }
     machine.frame.scale = Some((factors, centre));

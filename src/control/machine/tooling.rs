@@ -89,6 +89,7 @@ fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let renewed = command.word(Role::LengthOffset).is_some() && machine.length_op != Op::LengthOff;
     if op.is_some() || renewed {
         let before = machine.frame.length;
+        machine.stale_length = false;
         apply_length(machine, trace);
         if machine.rules.length_moves && command.word(Role::Z).is_none() {
             let mut to = machine.position;
@@ -204,6 +205,9 @@ impl Machine {
 
     /// Notes what a length that may be lost rests on, where something is placed by it.
     pub(super) fn place_by_length(&mut self, trace: &mut Trace) {
+        if std::mem::take(&mut self.stale_length) {
+            self.rules.length_acts_at_once.ask(trace);
+        }
         let Some(lost) = self.length_lost.take() else { return };
         match lost.by {
             LostBy::Reference => self.rules.length_after_reference.ask(trace),

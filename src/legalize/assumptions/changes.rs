@@ -1,4 +1,4 @@
-//! Tool changes that take Z to the machine's zero by themselves.
+//! Tool changes that take Z to the tool change position by themselves.
 //!
 //! A program rests on it where it goes on after a tool change before it has placed Z, and did not take Z to its zero before
 //! the change: by G28 or by G53 Z0. Any other place of the machine, and a second reference position, is none. Side conditions: a move of Z alone in absolute coordinates places it; what is not known is taken to rest on it.

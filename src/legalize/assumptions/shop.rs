@@ -97,7 +97,7 @@ fn rotary(nc: &Nc, after: &Modal, index: usize, span: Span, context: &mut Contex
     let feeds = after.op(Group::Motion).is_some_and(|op| op != Op::Rapid) && !nc.has(Op::RapidOnce);
     let drills = after.op(Group::Cycle).is_some_and(Op::is_cycle);
     if feeds && !drills && after.op(Group::FeedMode) != Some(Op::FeedInverse) {
-        rests(Question::RotaryFeed, index, span, context);
+        feed_of_rotary(index, span, context);
     }
 }
 
@@ -119,6 +119,29 @@ fn open_way(index: usize, span: Span, context: &mut Context<'_>) {
 
 const WAY: &str = "a rotary axis goes to an angle that is not within half a turn, and the way that it goes there is not known of \
      one of the two controls: it may turn the other way round";
+
+/// What the feed of a rotary axis rests on.
+fn feed_of_rotary(index: usize, span: Span, context: &mut Context<'_>) {
+    let row = |control: &Control| control.behaviour(Question::RotaryFeed).cloned();
+    let known =
+        [row(context.source), row(context.target)].map(|row| row.filter(|row| row.value != "unknown"));
+    if let [Some(ours), Some(theirs)] = &known
+        && ours.value != theirs.value
+    {
+        let surface = if ours.value == "surface" { ours } else { theirs };
+        let note = surface.origin.note.as_deref().map_or(String::new(), |note| format!(" ({note})"));
+        let finding = Diagnostic::new(Code::NoEquivalent, span, FEEDS);
+        let help = format!(
+            "write the feed in inverse time (G93){note}; if both machines count alike, say it in a profile: \
+             rotary.feed under [behaviours]"
+        );
+        return context.add_once(index, FEEDS, finding.with_help(help));
+    }
+    rests(Question::RotaryFeed, index, span, context);
+}
+
+const FEEDS: &str = "the feed per minute of this rotary axis is degrees on one of the two controls, and on the other the way of the \
+     surface by a diameter that the machine is set to";
 
 /// The angle of a word, where it is a number.
 fn degrees(value: &Expr, control: &Control) -> Option<f64> {

@@ -4,8 +4,8 @@
 //! in its word; about 0 both do the same. Side conditions: codes that choose or leave the frame of coordinates may stand
 //! under a rotation, and scaling may stand with a drilling cycle, only where that is known of both controls; where it is
 //! not, the place is for review. Where it ends: a mirror about another coordinate than the work zero is refused where
-//! the target mirrors about the zero; so is an angle or a factor that
-//! is not written, which each control takes from a setting of its own.
+//! the target mirrors about the zero. An angle or a factor that is not written, which each control takes from a setting of its
+//! own, is written out where the source's profile has it, and refused where not.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -30,12 +30,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             {
                 mirror(nc, index, span, context);
             }
-            if let Some(what) = stmt.kind.nc().and_then(from_setting)
+            if let StmtKind::Nc(nc) = &mut stmt.kind {
+                write_out(nc, context.source);
+            }
+            if let Some((what, op, role)) = stmt.kind.nc().and_then(from_setting)
                 && context.source.name() != context.target.name()
             {
                 let finding = Diagnostic::new(Code::NoEquivalent, span, what);
-                context
-                    .add(index, finding.with_help("write the value that the setting of the old machine has"));
+                context.add(index, by_setting(finding, context.source, op, role));
             }
             if let Some(nc) = stmt.kind.nc().filter(|nc| scales(nc)) {
                 let counts_parts =
@@ -78,22 +80,44 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 const COMPUTED: &str = "the scale factor is computed, and no source says whether a control takes its value or counts parts of it, as it does \
      with a number without a point: make sure that both take the value";
 
+/// Writes what a block takes from a setting of its control, where the profile has it.
+fn write_out(nc: &mut Nc, control: &Control) {
+    let value = match from_setting(nc) {
+        Some((_, _, role @ Role::Angle)) => control.bare_angle().map(|angle| (role, angle)),
+        Some((_, _, role)) => control.bare_factor().map(|factor| (role, factor)),
+        None => None,
+    };
+    nc.items.extend(value.map(|(role, value)| NcItem::Word(role, Expr::Number(value))));
+}
+
 /// What a block takes from a setting of the control, in words.
-fn from_setting(nc: &Nc) -> Option<&'static str> {
+fn from_setting(nc: &Nc) -> Option<(&'static str, Op, Role)> {
     let has = |is_it: fn(Role) -> bool| {
         nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if is_it(*role)))
     };
     if nc.has(Op::RotateOn) && !has(|role| role == Role::Angle) {
-        Some(
-            "the angle of this rotation is not written: the control takes it from a setting of its own, and another control from another",
-        )
+        let what = "the angle of this rotation is not written: the control takes it from a setting of its own, and another control from another";
+        Some((what, Op::RotateOn, Role::Angle))
     } else if nc.has(Op::ScaleOn) && !has(Role::is_scale) {
-        Some(
-            "the factor of this scaling is not written: the control takes it from a setting of its own, and another control from another",
-        )
+        let what = "the factor of this scaling is not written: the control takes it from a setting of its own, and another control from another";
+        Some((what, Op::ScaleOn, Role::Scale))
     } else {
         None
     }
+}
+
+/// Names the setting of the source that the value stands in.
+fn by_setting(finding: Diagnostic, control: &Control, op: Op, role: Role) -> Diagnostic {
+    let Some((row, _)) = control.left_out(op, role) else {
+        return finding.with_help("write the value that the setting of the old machine has");
+    };
+    let (kind, number) = row.name.split_once('.').unwrap_or(("setting", &row.name));
+    let help = format!(
+        "write the value into the block; or write in the profile of the {}, under [{kind}s]: {number} = \"...\" ({})",
+        control.dialect().title,
+        row.meaning
+    );
+    Diagnostic { setting: Some(row.name.as_str().into()), ..finding.with_help(help) }
 }
 
 fn is_computed_factor(item: &NcItem) -> bool {

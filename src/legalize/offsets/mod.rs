@@ -18,3 +18,4 @@ pub(in crate::legalize) mod still_blocks;
 pub(in crate::legalize) mod table_writes;
 pub(in crate::legalize) mod tool_lengths;
 pub(in crate::legalize) mod tool_word;
+pub(in crate::legalize) mod written_tools;

@@ -3,10 +3,10 @@
 use super::cycles::CYCLES;
 use super::late::{ENTRY, EXPRESSIONS, LAYOUT, OPERATOR, REGISTERS};
 use super::moves::MOVES;
+use super::source::SOURCE;
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
-use crate::legalize::assumptions::{changes, facts, runtime, shop};
 use crate::legalize::calls::{
     chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
     text_returns,
@@ -14,15 +14,11 @@ use crate::legalize::calls::{
 use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
 };
-use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, lone_words, stored_places};
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
-use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::{first_increments, joined, start};
-use crate::legalize::offsets::{
-    arc_starts, missing_length, offset_numbers, offset_rows, position_length, tool_word,
-};
+use crate::legalize::moves::{joined, start};
+use crate::legalize::offsets::{offset_numbers, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, dates, modal_reads, most_values, output_codes, output_states,
@@ -135,54 +131,6 @@ const TIDY: &[Pass] = &[
     BRANCHES,
     UNREACHABLE,
     DEAD_STORES,
-];
-
-const SOURCE: &[Pass] = &[
-    Pass::reports(
-        "source-facts",
-        "reports unconfirmed facts of the source that vacant variables depend on",
-        facts::of_source,
-    )
-    .when(|c, _| c.has(Feature::Computed)),
-    Pass::edits("other-kind", "refuses programs of the other kind of machine", other_kind::run)
-        .when(other_kind::concerns),
-    super::lathe::HOLE_CODES,
-    super::lathe::INTERPOLATIONS,
-    Pass::edits(
-        "stored-places",
-        "a place beside a repeat of none is gone to before its cycle",
-        stored_places::run,
-    )
-    .when(stored_places::concerns),
-    Pass::reports("cycle-arcs", "refuses arcs under drilling cycles that they do not end", cycle_arcs::run)
-        .when(cycle_arcs::concerns),
-    Pass::reports("drill-planes", "checks drilling cycles in other planes than G17", drill_planes::run)
-        .when(drill_planes::concerns),
-    Pass::reports(
-        "cycle-waits",
-        "refuses waits inside drilling cycles whose time is the cycle's too",
-        cycle_waits::run,
-    )
-    .when(cycle_waits::concerns),
-    Pass::edits("lone-words", "words of a cycle that the source ignores go", lone_words::run)
-        .when(lone_words::concerns),
-    Pass::reports(
-        "missing-length",
-        "tells of tool lengths whose number no block ever named",
-        missing_length::run,
-    )
-    .when(missing_length::concerns),
-    Pass::reports("arc-starts", "refuses cutter compensation that begins or ends on an arc", arc_starts::run)
-        .when(arc_starts::concerns),
-    Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
-        .when(first_increments::concerns),
-    super::moves::LATER_LENGTHS,
-    Pass::reports("shop-facts", "reports what parameters of the machines decide", shop::run)
-        .when(shop::concerns),
-    Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
-        .when(changes::concerns),
-    Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
-        .when(|c, _| runtime::concerns(c)),
 ];
 
 const STRUCTURE: &[Pass] = &[

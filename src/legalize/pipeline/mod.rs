@@ -10,6 +10,7 @@ mod lathe;
 mod list;
 mod moves;
 mod pass;
+mod source;
 
 pub use list::GROUPS;
 pub use pass::{Changes, Pass};

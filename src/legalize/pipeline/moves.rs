@@ -3,15 +3,17 @@
 use super::Pass;
 use super::lathe::is_mill;
 use crate::canon::{Op, Role};
+use crate::legalize::assumptions::barred;
 use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn_feeds};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
-    bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar, rapid_once, reference,
-    rotations, shaped, shift, short_arcs, unit_agrees, unit_checks, units, word_rounds,
+    added_angles, bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar,
+    rapid_once, reference, rotations, shaped, shift, short_arcs, unit_agrees, unit_checks, units,
+    word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
-    radius_words, set_position, table_writes, tool_lengths,
+    radius_words, set_position, table_writes, tool_lengths, written_tools,
 };
 
 /// Before the tool lengths are asked about.
@@ -23,6 +25,8 @@ pub(super) const LATER_LENGTHS: Pass = Pass::edits(
 .when(later_lengths::concerns);
 
 pub(super) const MOVES: &[Pass] = &[
+    Pass::reports("barred", "refuses what settings of the machines give another meaning", barred::run)
+        .when(|_, context| barred::concerns(context)),
     Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
         .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
     Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
@@ -48,6 +52,8 @@ pub(super) const MOVES: &[Pass] = &[
         .when(machine_feeds::concerns),
     Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
+    Pass::reports("added-angles", "tells of angles of rotations that may add up", added_angles::run)
+        .when(added_angles::concerns),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
         .when(|c, _| c.has(Feature::Increments)),
     Pass::edits("hole-circles", "holes on a circle get blocks of their own", hole_circles::run)
@@ -65,6 +71,13 @@ pub(super) const MOVES: &[Pass] = &[
         active_offsets::run,
     )
     .when(|c, _| c.has(Feature::System))
+    .needs(&["table-writes"]),
+    Pass::reports(
+        "written-tools",
+        "tells of lengths and radii that are written while in force",
+        written_tools::run,
+    )
+    .when(written_tools::concerns)
     .needs(&["table-writes"]),
     Pass::edits("units", "programs that name no unit get one", units::run)
         .when(units::concerns)

@@ -1,0 +1,59 @@
+//! The passes that look at what the programs rest on at the source, in the order they run in.
+
+use super::Pass;
+use super::lathe::{HOLE_CODES, INTERPOLATIONS};
+use super::moves::LATER_LENGTHS;
+use crate::legalize::assumptions::{changes, facts, runtime, shop};
+use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, lone_words, stored_places};
+use crate::legalize::features::Feature;
+use crate::legalize::lathe::other_kind;
+use crate::legalize::moves::first_increments;
+use crate::legalize::offsets::{arc_starts, missing_length};
+
+pub(super) const SOURCE: &[Pass] = &[
+    Pass::reports(
+        "source-facts",
+        "reports unconfirmed facts of the source that vacant variables depend on",
+        facts::of_source,
+    )
+    .when(|c, _| c.has(Feature::Computed)),
+    Pass::edits("other-kind", "refuses programs of the other kind of machine", other_kind::run)
+        .when(other_kind::concerns),
+    HOLE_CODES,
+    INTERPOLATIONS,
+    Pass::edits(
+        "stored-places",
+        "a place beside a repeat of none is gone to before its cycle",
+        stored_places::run,
+    )
+    .when(stored_places::concerns),
+    Pass::reports("cycle-arcs", "refuses arcs under drilling cycles that they do not end", cycle_arcs::run)
+        .when(cycle_arcs::concerns),
+    Pass::reports("drill-planes", "checks drilling cycles in other planes than G17", drill_planes::run)
+        .when(drill_planes::concerns),
+    Pass::reports(
+        "cycle-waits",
+        "refuses waits inside drilling cycles whose time is the cycle's too",
+        cycle_waits::run,
+    )
+    .when(cycle_waits::concerns),
+    Pass::edits("lone-words", "words of a cycle that the source ignores go", lone_words::run)
+        .when(lone_words::concerns),
+    Pass::reports(
+        "missing-length",
+        "tells of tool lengths whose number no block ever named",
+        missing_length::run,
+    )
+    .when(missing_length::concerns),
+    Pass::reports("arc-starts", "refuses cutter compensation that begins or ends on an arc", arc_starts::run)
+        .when(arc_starts::concerns),
+    Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
+        .when(first_increments::concerns),
+    LATER_LENGTHS,
+    Pass::reports("shop-facts", "reports what parameters of the machines decide", shop::run)
+        .when(shop::concerns),
+    Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
+        .when(changes::concerns),
+    Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
+        .when(|c, _| runtime::concerns(c)),
+];
