@@ -59,9 +59,16 @@ pub fn control(name: &str, machine: Option<&Path>) -> Result<Control, u8> {
         profile
     };
     let profile = match machine {
-        Some(path) => profile(path)?.filter(|profile| profile.dialect == name).unwrap_or_else(plain),
+        Some(path) => profile(path)?.unwrap_or_else(plain),
         None => plain(),
     };
+    if let Some(path) = machine.filter(|_| profile.dialect != name) {
+        let (path, theirs) = (path.display(), &profile.dialect);
+        let what = "name the profile of this machine, or the dialect of that one";
+        return Err(complain(format!(
+            "{path} is a profile for '{theirs}', and the machine is a {name}: {what}"
+        )));
+    }
     Control::new(entry, profile).map_err(|faults| {
         if faults.iter().any(|fault| fault.code == Code::DialectTable) {
             return complain_lines(entry.faults_as_text(&faults));

@@ -59,6 +59,14 @@ fn a_wrong_project_file_is_named_with_its_line() {
     }
 }
 
+#[test]
+fn a_profile_of_another_control_is_no_profile_of_the_machine() {
+    let project = PROJECT.replace("\"haas\"", "\"haas\"\nprofile = \"m.toml\"");
+    let files =
+        [("macroglot.toml", project.as_str()), ("m.toml", "dialect = \"fadal\"\n"), ("programs/a.nc", CLEAN)];
+    Shop::with(&files).fails("convert", &["m.toml", "'fadal'", "a haas"]);
+}
+
 /// Two libraries into one folder would mix their registers up.
 #[test]
 fn two_libraries_need_two_folders() {
