@@ -22,6 +22,26 @@ fn a_wrong_profile_is_named_with_its_line() {
     shop.fails("dialects fanuc --machine key.toml", &["key.toml:2"]);
 }
 
+/// G49 moves Z by a length in force on such a Fanuc (parameter 5006.6 is 0), and not on a Haas. What a machine begins in has none.
+#[test]
+fn a_tool_length_left_in_force_is_for_review_unless_a_start_is_stated() {
+    let program = "O1\nG21 G90 G17 G94 G40 G80 G49 G54\nG0 X1.\nT1 M6\nG43 H1\nG0 X5.\nZ5.\nM30\n";
+    let fanuc = "dialect = \"fanuc\"\nunits = \"metric\"\n[parameters]\n5006.6 = \"0\"\n";
+    let stated = format!("{fanuc}[start]\ncodes = \"G21 G90 G17 G94 G0 G54\"\n");
+    let shop = Shop::with(&[
+        ("a.nc", program),
+        ("h.toml", "dialect = \"haas\"\nunits = \"metric\"\n"),
+        ("open.toml", fanuc),
+        ("stated.toml", &stated),
+    ]);
+    for (profile, asked) in [("open.toml", true), ("stated.toml", false)] {
+        let line = format!("convert a.nc --from haas --to fanuc --machine h.toml --machine {profile}");
+        let run = shop.run(&line);
+        assert!(run.out.contains("G0 X5.\nG43 H1 Z5.\n"), "{}{}", run.out, run.err);
+        assert_eq!(run.err.contains("started with a tool length in force"), asked, "{}", run.err);
+    }
+}
+
 /// What machines have in common stands once: the nearest profile counts first, lists count together.
 #[test]
 fn a_profile_extends_another() {

@@ -136,18 +136,7 @@ fn stands(after: &Modal) -> bool {
 
 fn keeps(op: Op) -> bool {
     use Group::{Coolant, Distance, FeedMode, PathMode, Plane, RadiusComp, ReturnPlane, SpeedMode, Spindle};
-    let here = matches!(
-        op,
-        Op::Rapid
-            | Op::Linear
-            | Op::ArcCw
-            | Op::ArcCcw
-            | Op::ExactStopOnce
-            | Op::SelectWork
-            | Op::CycleOff
-            | Op::Stop
-            | Op::OptionalStop
-    );
+    let here = matches!(op, Op::Rapid | Op::Linear | Op::ExactStopOnce | Op::SelectWork | Op::CycleOff);
     let group = op.group();
     here || matches!(
         group,

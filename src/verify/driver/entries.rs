@@ -10,7 +10,7 @@ use crate::assume::Predicate;
 use crate::canon::Op;
 use crate::control::trace::Event;
 use crate::control::{End, ProgramRef, Run, Scenario};
-use crate::dialect::Units;
+use crate::dialect::{Question, Units};
 use crate::verify::certificate::Why;
 use crate::verify::compare::{Difference, compare, is_cut, lacks};
 use crate::verify::entry::{Start, UNIT, starts};
@@ -34,6 +34,8 @@ enum Found {
     Rests(String),
     /// They did different things, and both take the state to be as a reset leaves it, where they do the same.
     Granted,
+    /// They did different things, because a code of the tool length moves its axis on the target alone.
+    RestsThere(String),
     /// They did different things: the witness is kept.
     Fault,
 }
@@ -91,6 +93,15 @@ impl Verifier<'_, '_> {
                     }
                     Found::Rests(what) => {
                         self.rests(&[state], &what);
+                        settled.insert(state.name);
+                    }
+                    Found::RestsThere(what) => {
+                        let (noun, words) = (state.noun, state.words);
+                        let text = format!(
+                            "the target depends on {noun} at its start: started {words}, it does something else than the source \
+                             ({what}). If none is in force when it is started, give its profile a [start]"
+                        );
+                        self.because(Why::EntryState, &text);
                         settled.insert(state.name);
                     }
                 }
@@ -173,6 +184,11 @@ impl Verifier<'_, '_> {
                     false => Found::Rests(difference.what),
                 }
             }
+            // What a machine begins in leaves no tool length in force.
+            Err(Some(_)) if self.is_moved_there(states) && !target.control.start().is_empty() => {
+                Found::Granted
+            }
+            Err(Some(difference)) if self.is_moved_there(states) => Found::RestsThere(difference.what),
             Err(Some(difference)) => {
                 self.witnessed(&pair, &difference);
                 let started: Vec<&str> = states.iter().map(|state| state.words).collect();
@@ -184,6 +200,12 @@ impl Verifier<'_, '_> {
             }
         };
         (found, upto)
+    }
+
+    /// True for a tool length alone, whose codes move its axis on the target and not on the source.
+    fn is_moved_there(&self, states: &[&Start]) -> bool {
+        let moves = |side: &Side<'_>| side.control.is(Question::LengthMoves);
+        states.iter().all(|state| state.name == "length") && moves(self.job.target) && !moves(self.job.source)
     }
 
     /// True where the source does something else than after power-on, before or when a difference shows.
