@@ -1,41 +1,60 @@
 //! Tool offsets that the target does not have.
 //!
 //! Law: a word that names a tool offset names one that the target has. Counter-example: `G43 H120 Z5.` for a control with 99
-//! offsets. How many there are is the table's row, or `offsets` of the machine profile where the machine has less. A computed
-//! number is for the verifier's runs.
+//! offsets. How many there are is the table's row, or `offsets` of the machine profile where the machine has less. Side condition: a
+//! variable holds numbers that its program gives it; of what a caller or an operator gives, nothing is known here.
 
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{Module, StmtKind};
+use crate::ir::analysis::{Assigned, Constant};
+use crate::ir::{BlockId, Expr, Module, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
 /// The words that name an offset.
 const NAMES: [Role; 2] = [Role::LengthOffset, Role::RadiusOffset];
 
-/// True if the target's table says how many offsets there are.
-pub fn concerns(_: &Features, context: &Context<'_>) -> bool {
-    last(context.target).is_some()
+/// True if the library names offsets, and the target's table says how many there are.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    NAMES.iter().any(|role| features.role(*role)) && last(context.target).is_some()
 }
 
 /// Refuses numbers past the last one.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let Some(last) = last(context.target) else { return };
+    let summaries = context.summaries(module);
     for (index, program) in module.programs.iter().enumerate() {
-        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-            let StmtKind::Nc(nc) = &stmt.kind else { continue };
-            let numbers = NAMES.iter().filter_map(|role| nc.word(*role)?.constant());
-            for number in numbers.filter(|number| *number > f64::from(last)) {
-                let what = format!(
-                    "tool offset {number}: the {} has {last}, with what its profile says ('offsets')",
-                    context.target.dialect().title
-                );
-                let help = "give the tool an offset that the machine has";
-                context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help));
+        let assigned = Assigned::new(program, &summaries);
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                let values = NAMES.iter().filter_map(|role| nc.word(*role));
+                let numbers = values.flat_map(|value| numbers(value, &assigned, (id, at)));
+                for number in numbers.filter(|number| *number > f64::from(last)) {
+                    let title = &context.target.dialect().title;
+                    let what = format!("this block names tool offset {number}, and the {title} has {last}");
+                    let help = "give the tool an offset that the machine has; 'offsets' in its profile may say that it has less \
+                                than its table";
+                    let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
+                    context.add(index, found);
+                }
             }
         }
     }
+}
+
+/// The numbers that a word may have, as far as its program gives them.
+fn numbers(value: &Expr, assigned: &Assigned<'_>, (id, at): (BlockId, usize)) -> Vec<f64> {
+    let held = match value {
+        Expr::Var(var) => assigned.at(*var, id, at).unwrap_or_default(),
+        _ => Vec::new(),
+    };
+    let held = held.into_iter().filter_map(|held| match held {
+        Constant::Number(number) => Some(number),
+        _ => None,
+    });
+    value.constant().into_iter().chain(held).collect()
 }
 
 /// The number of the last tool offset, where the maker or the profile says it.
