@@ -161,6 +161,7 @@ pub const LIMITS: &[&str] = &[
     "message.alarm",
     "lookahead",
     "macro.lines",
+    "g.codes",
 ];
 
 fn names(reader: &mut Reader, tables: &Tables) {

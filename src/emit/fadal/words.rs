@@ -11,9 +11,6 @@ use crate::emit::common::spellings::{Code, Operand};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo};
 use smallvec::SmallVec;
 
-/// G codes in one block, at the most: the maker shows five, and says that too many are a fault.
-const G_CODES: usize = 5;
-
 /// Modes that move nothing and take no word, so that they may be said a block before.
 const MODES: [Group; 5] = [Group::Plane, Group::Distance, Group::Units, Group::FeedMode, Group::ReturnPlane];
 
@@ -43,7 +40,8 @@ impl<'p> Emitter<'p> {
             return nc.items.iter().any(beside).then(|| split(nc, beside));
         }
         let mode = |item: &NcItem| matches!(item, NcItem::Op(op) if MODES.contains(&op.group()) && is_g(*op));
-        let many = nc.ops().filter(|op| is_g(*op)).count() > G_CODES;
+        let most = self.control.limit("g.codes").map_or(usize::MAX, |most| most as usize);
+        let many = nc.ops().filter(|op| is_g(*op)).count() > most;
         let some = nc.items.iter().any(mode) && !nc.items.iter().all(mode);
         (many && some).then(|| split(nc, mode))
     }
