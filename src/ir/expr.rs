@@ -11,7 +11,7 @@ pub enum Expr {
     Number(f64),
     /// A count of least increments of the address that the value goes to: `X10` on a
     /// control that counts so. Stands only as the whole value of a word or an
-    /// argument, or under one [`Expr::Negate`] there; one increment also behind a computed count (see [`Expr::count`]).
+    /// argument, or under one [`Expr::Negate`] there. One increment may also be multiplied by a computed count ([`Expr::count`]).
     Increments(f64),
     /// No value.
     Vacant,

@@ -132,8 +132,8 @@ fn feed_of_rotary(index: usize, span: Span, context: &mut Context<'_>) {
         let note = surface.origin.note.as_deref().map_or(String::new(), |note| format!(" ({note})"));
         let finding = Diagnostic::new(Code::NoEquivalent, span, FEEDS);
         let help = format!(
-            "write the feed in inverse time (G93){note}; if both machines count alike, say it in a profile: \
-             rotary.feed under [behaviours]"
+            "write the feed in inverse time, with G93; or, if both machines count alike, write rotary.feed under \
+             [behaviours] in the profile of one of them{note}"
         );
         return context.add_once(index, FEEDS, finding.with_help(help));
     }

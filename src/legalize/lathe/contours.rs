@@ -162,7 +162,7 @@ pub(super) fn facts_uncompensated(module: &Module, context: &Context<'_>) -> Arc
     context.modal_facts_from(module, &entry)
 }
 
-/// The words of the blocks of a cycle's contour; none where it is not found.
+/// The blocks of words between the first and the last block of a cycle's contour; none if one of the two is not found.
 pub(super) fn contour<'p>(program: &'p Program, nc: &Nc) -> impl Iterator<Item = &'p Nc> {
     let number = |role: Role| nc.word(role).and_then(|value| value.constant()).map(|number| number as u32);
     let end = |role: Role| find(program, number(role)?).ok();
