@@ -114,8 +114,10 @@ pub fn differ(
             CutterRadius { side: other_side, value: other, tip: other_tip, .. },
         ) => (side != other_side || tip != other_tip || written(*value, *other))
             .then_some("the cutter radius in force differs"),
-        (ToolOffset { x, z, .. }, ToolOffset { x: other_x, z: other_z, .. }) => {
-            (written(*x, *other_x) || written(*z, *other_z)).then_some("the tool offset in force differs")
+        // What stands in its row the scenarios leave open, so the number counts: both turrets have the same rows.
+        (ToolOffset { offset, x, z }, ToolOffset { offset: other, x: other_x, z: other_z }) => {
+            let sizes = written(*x, *other_x) || written(*z, *other_z);
+            (offset != other || sizes).then_some("the tool offset in force differs")
         }
         (WorkOffset { number }, WorkOffset { number: other }) => {
             (number != other).then_some("the work offset in force at the return differs")
