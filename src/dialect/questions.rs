@@ -251,6 +251,8 @@ questions! {
     ThreadFeedIsLead "thread.feed.is.lead" YES, "F of a thread is its lead in feed a minute too", if "op:threading";
     SpeedKept "speed.kept" OneOf(&["mode", "turns", "unknown"]), "the speed after a change between G96 and G97 without S: the last one of that mode, or the turns of the \
                                                                  moment", if "op:threading";
+    PassAlone "pass.alone" OneOf(&["nothing", "repeats", "unknown"]), "what a block with M, S or T and without an axis does while a turning, threading or facing pass is in \
+                                                                     force: the pass once more, or nothing but its own words", if "op:pass.turning";
     ThreadAngles "thread.angles" OneOf(&["0.29.30.55.60.80", "any", "unknown"]), "the angles between the flanks of a thread that the cycle of many passes takes, in \
                                                                                 whole degrees", if "op:threading";
     ThreadFlanks "thread.flanks" OneOf(&["leading.first", "trailing.first", "unknown"]), "in which order the passes of a thread that is cut on both flanks take them: first the one \

@@ -108,6 +108,8 @@ pub struct Rules {
     pub repeats_move: Fact<bool>,
     /// A change between turns and a surface speed without a speed brings back the last one of that mode; else the turns stay.
     pub speed_kept: Fact<bool>,
+    /// A block without an axis makes the turning, threading or facing pass in force once more.
+    pub pass_alone: Fact<bool>,
     pub cycle_block_runs: Fact<bool>,
     pub cycle_runs_without_axes: Fact<bool>,
     pub cycle_runs_by_depth: Fact<bool>,
@@ -248,6 +250,7 @@ impl Rules {
                 },
                 true,
             ),
+            pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
                 .or_silent(control, Question::CycleBlockRuns),
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),

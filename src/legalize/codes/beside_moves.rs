@@ -6,7 +6,7 @@
 //! Where it matters and no source says it, the code goes where the trade has it, and the fact is named.
 //! A T word of a lathe stays in the block of its move: whether the turret turns before the move, no source says (docs/lathe.md T5).
 //! The blocks of a lathe's contour that the cycle counts on (the first, the last, a corner) stay whole where the target is taken to do the
-//! same, and the fact is named.
+//! same, and the fact is named. So do the blocks of single passes (G90, G92, G94), which M, S or T alone may make once more.
 //! Counter-example: `G1 X5. M3 S1000`, which cuts with the spindle turning on one control, and then starts it on another.
 
 use crate::canon::{Auxiliary, Group, Op, Role};
@@ -41,16 +41,23 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             for stmt in block.stmts.drain(..) {
                 let before = stmt.kind.nc().is_some_and(|nc| kinds(nc).next().is_some());
                 let before = before.then(|| state.clone());
+                let in_pass = passes(&state);
                 state.step(&stmt);
                 let corner = stmt.kind.nc().is_some_and(has_corner);
                 let number = stmt.site.sequence.get();
                 let [first, last] =
                     ends.each_ref().map(|ends| number.is_some_and(|number| ends.contains(&number)));
-                let whole = Whole { head: first || cornered, tail: last || corner };
+                let whole =
+                    Whole { head: first || cornered || in_pass, tail: last || corner || passes(&state) };
                 cornered = corner;
                 match before {
                     Some(before) => {
-                        changed |= split(index, stmt, &before, (pauses, whole), context, &mut out)
+                        let span = stmt.site.span;
+                        let apart = split(index, stmt, &before, (pauses, whole), context, &mut out);
+                        if apart && (in_pass || passes(&state)) {
+                            context.rests_on_target(index, span, Question::PassAlone);
+                        }
+                        changed |= apart;
                     }
                     None => out.push(stmt),
                 }
@@ -69,8 +76,13 @@ fn named(program: &ir::Program, role: Role) -> Vec<u32> {
     words.map(|number| number as u32).collect()
 }
 
-/// Where nothing may come between a block and its neighbour: before it, as it begins a contour or a corner waits for it, or after it, as it
-/// ends a contour or has a corner.
+/// True where a turning pass is in force, which M, S or T alone may make once more.
+fn passes(modal: &Modal) -> bool {
+    modal.op(Group::Motion).is_some_and(Op::is_pass)
+}
+
+/// Where nothing may come between a block and its neighbour: before it, as it begins a contour, a corner waits for it or a turning pass is in
+/// force, or after it, as it ends a contour, has a corner or leaves a pass in force.
 #[derive(Clone, Copy)]
 struct Whole {
     head: bool,

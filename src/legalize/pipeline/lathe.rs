@@ -6,8 +6,8 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
-    interpolations, lone_steps, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
-    written_corners, x_counts,
+    interpolations, lone_passes, lone_steps, modes, roughing, run_outs, steps, tap_feeds, thread_ways,
+    threads, written_corners, x_counts,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -22,6 +22,13 @@ pub(super) const HOLE_CODES: Pass = Pass::reports(
     hole_codes::run,
 )
 .when(|c, _| c.any_op(Op::is_hole));
+
+pub(super) const LONE_PASSES: Pass = Pass::edits(
+    "lone-passes",
+    "M, S and T alone repeat a turning pass on the target as they do on the source",
+    lone_passes::run,
+)
+.when(lone_passes::concerns);
 
 pub(super) const INTERPOLATIONS: Pass = Pass::reports(
     "interpolations",

@@ -1,7 +1,7 @@
 //! The passes that look at what the programs rest on at the source, in the order they run in.
 
 use super::Pass;
-use super::lathe::{HOLE_CODES, INTERPOLATIONS};
+use super::lathe::{HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::LATER_LENGTHS;
 use crate::legalize::assumptions::{changes, facts, runtime, shop};
 use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, lone_words, stored_places};
@@ -21,6 +21,7 @@ pub(super) const SOURCE: &[Pass] = &[
         .when(other_kind::concerns),
     HOLE_CODES,
     INTERPOLATIONS,
+    LONE_PASSES,
     Pass::edits(
         "stored-places",
         "a place beside a repeat of none is gone to before its cycle",

@@ -25,7 +25,8 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
     if command.axes().any(|(axis, _)| axis != 0 && axis != 2) {
         return Err(alarm("PS0330", "a pass of an axis other than X and Z"));
     }
-    if !own.iter().any(|role| command.word(*role).is_some()) {
+    let is_told = own.iter().any(|role| command.word(*role).is_some());
+    if !is_told && !(machine.lathe.pass.is_whole() && runs_again(machine, command, trace)) {
         return Ok(());
     }
     machine.lathe.after_cycle = false;
@@ -49,7 +50,19 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
     Ok(())
 }
 
+/// True where the control makes the pass once more for M, S or T alone (B9).
+fn runs_again(machine: &Machine, command: &Command, trace: &mut Trace) -> bool {
+    let switches = command.ops.iter().any(|op| *op != Op::Dwell)
+        || [Role::Speed, Role::Tool].iter().any(|role| command.word(*role).is_some());
+    switches && machine.rules.pass_alone.ask(trace)
+}
+
 impl Pass {
+    /// True once it has been told where it ends.
+    fn is_whole(&self) -> bool {
+        self.x.is_some() && self.z.is_some()
+    }
+
     /// Takes the block's words; those it does not have stay (B7).
     fn read(&mut self, command: &Command, a: Point, (unit, incremental): (f64, bool)) {
         let place = |place: Role, step: Role, from: f64, scale: f64| {
