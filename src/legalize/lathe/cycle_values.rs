@@ -215,8 +215,12 @@ fn place(
     {
         return Ok((words, Values::new(), Vec::new()));
     }
+    // Nobody knows a control to be the newer one whose profile lists no options; both take the values from settings.
+    let has = row(target, kind.setup).is_some_and(|row| {
+        row.option.as_deref().is_none_or(|option| target.has_option(option) == Some(true))
+    });
     let (before, rest): (Values, Values) =
-        values.iter().cloned().partition(|(role, _)| takes(target, kind.setup, *role));
+        values.iter().cloned().partition(|(role, _)| has && takes(target, kind.setup, *role));
     if !before.is_empty() && rest.iter().all(|(role, _)| takes(target, kind.cycle, *role)) {
         return Ok((rest, before, Vec::new()));
     }
