@@ -17,6 +17,7 @@ pub mod lone_steps;
 pub mod modes;
 pub mod other_kind;
 pub mod place;
+mod restarts;
 pub mod roughing;
 pub mod run_outs;
 mod setting_values;

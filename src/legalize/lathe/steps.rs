@@ -6,6 +6,7 @@
 
 use super::contour_starts::Contours;
 use super::place::Place;
+use super::restarts::restarts;
 use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -121,7 +122,7 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut stmts = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|block| &block.stmts);
     let calls_after_moves = stmts.any(is_modal);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let (straight, reached) = (entered_straight(program), reached(program));
+        let (straight, reached, fresh) = (entered_straight(program), reached(program), restarts(program));
         // What a macro after each move does to where cycles begin is not known.
         let contours = if calls_after_moves { Contours::default() } else { Contours::of(program) };
         let (mut mode, mut place) = (None, Place::keeping_level());
@@ -162,6 +163,10 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     ));
                     mode = Some(Op::Absolute).filter(|_| stmt.site.skip.is_none());
                     continue;
+                // The letters need no mode, so an operator may begin there after a reset; in a contour nobody does.
+                if !inside && fresh.get(count).and_then(|fresh| fresh.get(at)).copied().unwrap_or(true) {
+                    mode = None;
+                }
                 }
                 // The depth of a hole counts from its plane, not from where the tool stands.
                 if !place.drills() && (both_kinds(nc) || inside) {
