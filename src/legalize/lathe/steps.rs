@@ -65,9 +65,6 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
                     None => found.push((index, span, UNKNOWN)),
                 }
                 nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
-                if nc.items.is_empty() {
-                    stmt.kind = StmtKind::Comment;
-                }
             }
         }
     }
@@ -79,6 +76,7 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
 
 /// Cycles that read a contour in another mode than the one it stands in.
 fn contours_elsewhere(module: &Module, facts: &ModalFacts) -> Vec<(usize, Span, &'static str)> {
+            block.stmts.retain_mut(is_left);
     let mut found = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         let (mut begun, mut read) = (BTreeMap::new(), Vec::new());
@@ -87,6 +85,15 @@ fn contours_elsewhere(module: &Module, facts: &ModalFacts) -> Vec<(usize, Span, 
             for stmt in &block.stmts {
                 let before = modal.op(Group::Distance);
                 modal.step(stmt);
+/// True where something of a statement is left: of an emptied one its comments, and a number that may be gone to.
+fn is_left(stmt: &mut Stmt) -> bool {
+    if stmt.kind.nc().is_none_or(|nc| !nc.items.is_empty()) {
+        return true;
+    }
+    stmt.kind = StmtKind::Comment;
+    stmt.site.sequence.get().is_some() || !stmt.site.comments.is_empty()
+}
+
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
                 // A first block that says its mode is read alike from everywhere.
                 let says = nc.ops().any(|op| op.group() == Group::Distance);
