@@ -13,7 +13,6 @@ pub mod hole_codes;
 pub mod hole_returns;
 pub mod holes;
 pub mod interpolations;
-pub mod lone_steps;
 pub mod modes;
 pub mod other_kind;
 pub mod place;

@@ -6,7 +6,7 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
-    interpolations, lone_steps, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
+    interpolations, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
     written_corners, x_counts,
 };
 use crate::legalize::moves::rapid_in_force;
@@ -83,13 +83,6 @@ pub(super) const LATHE: &[Pass] = &[
         .when(|c, _| c.op(Op::ThreadingPass)),
     Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
         .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
-    Pass::each(
-        "lone-steps",
-        "increments that have no letter there count from where the block before ended",
-        lone_steps::run,
-    )
-    .when(lone_steps::concerns)
-    .needs(&["steps", "holes"]),
     Pass::rewrites("run-outs", "threads are told that they do not run out by a word", run_outs::run)
         .when(|c, context| run_outs::concerns(c, context.target)),
     Pass::reports(
