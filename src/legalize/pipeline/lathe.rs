@@ -5,8 +5,8 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
-    interpolations, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
+    bare_starts, contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns,
+    holes, interpolations, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
     written_corners, x_counts,
 };
 use crate::legalize::moves::rapid_in_force;
@@ -36,6 +36,12 @@ pub(super) const FACES: Pass =
         .needs(&["start", "beside-moves"]);
 
 pub(super) const LATHE: &[Pass] = &[
+    Pass::edits(
+        "bare-starts",
+        "numbers of contours that stand in blocks without words go to the next block",
+        bare_starts::run,
+    )
+    .when(bare_starts::concerns),
     Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)
         .when(|c, _| corners::concerns(c))
         .needs(&["start", "beside-moves"]),
