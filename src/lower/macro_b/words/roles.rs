@@ -106,6 +106,10 @@ impl<'a> Lowering<'a> {
             self.findings.not_understood(span, what);
             return false;
         }
+        if let Some((_, row)) = codes.iter().find(|(_, row)| row.op == Threading) {
+            self.two_blocks(word.letter, span, &row.code);
+            return false;
+        }
         match in_force {
             Some(row) if matches!(row.op, ArcCw | ArcCcw | ArcTangent) || special(row.op) => true,
             Some(row) if own || !self.motion.joined => {
