@@ -88,25 +88,15 @@ impl Control {
         let may = match mode.op.group() {
             Group::Motion => matches!(mode.op, Op::Rapid | Op::Linear),
             Group::WorkOffset => mode.work_offset().is_some_and(|number| number > 0),
+            // Where the holes of a lathe end.
+            Group::ReturnPlane => self.machine() == Machine::Lathe,
             group => StartMode::GROUPS.contains(&group),
         };
         if may && row.modal != Some(false) {
             return Ok(mode);
         }
-        let mut help =
-            "name the unit, absolute or incremental, the plane, the feed mode, G0 or G1, and the work offset"
-                .to_owned();
-        // Another G code system has these numbers for the feed.
-        if self.machine() == Machine::Lathe
-            && mode.op.group() == Group::ReturnPlane
-            && let Some(by_turn) = self.code_for(Op::FeedPerTurn, &BTreeMap::new())
-            && let Some(by_minute) = self.code_for(Op::FeedPerMinute, &BTreeMap::new())
-        {
-            let (turn, minute) = (&by_turn.code, &by_minute.code);
-            help = format!(
-                "in the G code system of this machine {turn} is feed a turn, and {minute} feed a minute; {help}"
-            );
-        }
-        Err((format!("'{word}' is nothing that a program begins in"), help))
+        let help =
+            "name the unit, absolute or incremental, the plane, the feed mode, G0 or G1, and the work offset";
+        Err((format!("'{word}' is nothing that a program begins in"), help.into()))
     }
 }

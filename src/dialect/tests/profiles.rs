@@ -172,6 +172,15 @@ fn a_machine_begins_in_what_its_profile_says() {
     assert_eq!(ops, [Op::Absolute, Op::PlaneXy, Op::Inch, Op::SelectWork, Op::Rapid]);
     assert_eq!(control.start()[3].work_offset(), Some(2));
     assert_eq!(control.units(), Some(Units::Inch), "the unit counts where no code says it");
+    // Where the holes of a lathe end; in system A they always go back, and G99 is the feed.
+    let lathe = |system: &str| {
+        let settings = format!("[settings]\ngcode_system = \"{system}\"\n[start]\ncodes = \"G99\"");
+        Control::from_profile(&format!("dialect = \"fanuc\"\nmachine = \"lathe\"\n{settings}"))
+            .unwrap()
+            .start()[0]
+            .op
+    };
+    assert_eq!([lathe("A"), lathe("B"), lathe("C")], [Op::FeedPerTurn, Op::ReturnR, Op::ReturnR]);
     let start = |said: &str, told: &str| {
         wrong(
             &format!("dialect = \"fanuc\"\n[start]\ncodes = \"{said}\""),
@@ -182,6 +191,7 @@ fn a_machine_begins_in_what_its_profile_says() {
     start("G90 G43", "'G43' is nothing that a program begins in");
     start("G2", "'G2' is nothing that a program begins in");
     start("G53", "'G53' is nothing that a program begins in");
+    start("G98", "'G98' is nothing that a program begins in");
     start("ABS", "'ABS' is no code");
     start("G777", "Fanuc Custom Macro B has no code G777");
     wrong(

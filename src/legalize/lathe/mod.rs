@@ -1,5 +1,6 @@
 //! Lathes: cycles in one block or two, contours, holes, increments, machine coordinates, units, and programs of the other kind of machine.
 
+pub mod bare_starts;
 mod contour_starts;
 pub mod contour_types;
 pub mod contours;
@@ -14,10 +15,10 @@ pub mod hole_returns;
 pub mod holes;
 pub mod interpolations;
 pub mod lone_passes;
-pub mod lone_steps;
 pub mod modes;
 pub mod other_kind;
 pub mod place;
+mod restarts;
 pub mod roughing;
 pub mod run_outs;
 mod setting_values;

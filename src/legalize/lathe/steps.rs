@@ -6,6 +6,7 @@
 
 use super::contour_starts::Contours;
 use super::place::Place;
+use super::restarts::restarts;
 use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -21,19 +22,27 @@ pub fn mode_to_letters(features: &Features, context: &Context<'_>) -> bool {
     let modes = features.op(Op::Incremental)
         || features.op(Op::Absolute)
         || has_mode(context.source) && moves_any(features);
-    modes && has_letters(context.target) && !has_mode(context.target)
+    let letters = has_letters(context.target) && !has_mode(context.target);
+    modes && letters || loses_letters(features, context)
+}
+
+/// True where the source has modes and letters, and the target has modes alone: all become letters first.
+fn loses_letters(features: &Features, context: &Context<'_>) -> bool {
+    let (source, target) = (context.source, context.target);
+    let both = has_mode(source) && has_letters(source);
+    let stepped = Role::STEPS.iter().any(|(_, step)| features.role(*step));
+    both && stepped && has_mode(target) && !has_letters(target)
 }
 
 fn moves_any(features: &Features) -> bool {
     Role::STEPS.iter().any(|(whole, step)| features.role(*whole) || features.role(*step))
 }
 
-/// True where the target has a mode for increments, and no letters; a program without increments must say so there too.
+/// True where the target has a mode for increments, and the source none; a program without increments must say so there too. A target
+/// that has letters as well gets none of them.
 pub fn letters_to_mode(features: &Features, context: &Context<'_>) -> bool {
-    moves_any(features)
-        && has_mode(context.target)
-        && !has_letters(context.target)
-        && !has_mode(context.source)
+    let lost = loses_letters(features, context);
+    moves_any(features) && has_mode(context.target) && (!has_mode(context.source) || lost)
 }
 
 /// True of a control that has letters for increments.
@@ -61,19 +70,28 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
                     Some(Op::Incremental) if nc.has(Op::MachineOnce) => found.push((index, span, MACHINE)),
                     Some(Op::Incremental) => swap(nc, |(whole, step)| (whole, step)),
                     Some(_) => {}
+                    // Letters count alike in both.
+                    None if has_steps(nc) && !both_kinds(nc) => {}
                     None => found.push((index, span, UNKNOWN)),
                 }
                 nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
-                if nc.items.is_empty() {
-                    stmt.kind = StmtKind::Comment;
-                }
             }
+            block.stmts.retain_mut(is_left);
         }
     }
     for (index, span, what) in found {
         context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(HELP));
     }
     true
+}
+
+/// True where something of a statement is left: of an emptied one its comments, and a number that may be gone to.
+fn is_left(stmt: &mut Stmt) -> bool {
+    if stmt.kind.nc().is_none_or(|nc| !nc.items.is_empty()) {
+        return true;
+    }
+    stmt.kind = StmtKind::Comment;
+    stmt.site.sequence.get().is_some() || !stmt.site.comments.is_empty()
 }
 
 /// Cycles that read a contour in another mode than the one it stands in.
@@ -121,7 +139,7 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut stmts = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|block| &block.stmts);
     let calls_after_moves = stmts.any(is_modal);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let (straight, reached) = (entered_straight(program), reached(program));
+        let (straight, reached, fresh) = (entered_straight(program), reached(program), restarts(program));
         // What a macro after each move does to where cycles begin is not known.
         let contours = if calls_after_moves { Contours::default() } else { Contours::of(program) };
         let (mut mode, mut place) = (None, Place::keeping_level());
@@ -145,6 +163,10 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 enter(&mut place, stmt, contours.starts_at(stmt), read && at == 0);
                 let before = place;
                 let inside = before.in_contour() || contours.inside((count, at));
+                // The letters need no mode, so an operator may begin there after a reset; in a contour nobody does.
+                if !inside && fresh.get(count).and_then(|fresh| fresh.get(at)).copied().unwrap_or(true) {
+                    mode = None;
+                }
                 place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 // The reader has refused a place and an increment of one axis.

@@ -11,7 +11,7 @@ use super::mains::{head, mains, returns, uncalled};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::StartMode;
+use crate::dialect::{Machine, StartMode};
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::may_come_back;
 use crate::ir::{BlockId, Callee, Expr, Module, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind};
@@ -43,8 +43,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         };
         // What the target cannot select it is in: every control here begins so.
         let usual = |op| matches!(op, Op::Rapid | Op::Absolute | Op::PlaneXy | Op::FeedPerMinute);
-        let has =
-            |mode: &&StartMode| !usual(mode.op) || context.target.code_for(mode.op, &mode.fixed).is_some();
+        // A lathe tells by letters of its own what G90 tells, and its passes ask for it.
+        let turns = context.target.machine() == Machine::Lathe;
+        let has = |mode: &&StartMode| {
+            turns || !usual(mode.op) || context.target.code_for(mode.op, &mode.fixed).is_some()
+        };
         let modes: Vec<&StartMode> = context.source.start().iter().filter(rests).filter(has).collect();
         if modes.is_empty() {
             continue;
@@ -201,18 +204,19 @@ fn uses(kind: &StmtKind) -> bool {
 struct Counted {
     feed: bool,
     plane: bool,
+    holes: bool,
 }
 
 impl Counted {
     fn of(module: &Module) -> Self {
-        let mut counted = Self { feed: false, plane: false };
+        let mut counted = Self { feed: false, plane: false, holes: false };
         for block in module.programs.iter().flat_map(|program| &program.blocks) {
             for stmt in &block.stmts {
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
                 for item in &nc.items {
                     match item {
                         NcItem::Word(role, _) => counted.feed |= *role == Role::Feed,
-                        NcItem::Code(..) => counted = Self { feed: true, plane: true },
+                        NcItem::Code(..) => counted = Self { feed: true, plane: true, holes: true },
                         NcItem::Op(op) => {
                             let group = op.group();
                             let turns = matches!(
@@ -224,6 +228,7 @@ impl Counted {
                                     | Group::Plane
                             );
                             counted.plane |= turns || matches!(op, Op::ArcCw | Op::ArcCcw);
+                            counted.holes |= op.is_hole();
                         }
                     }
                 }
@@ -236,6 +241,7 @@ impl Counted {
         match group {
             Group::FeedMode => self.feed,
             Group::Plane => self.plane,
+            Group::ReturnPlane => self.holes,
             _ => true,
         }
     }

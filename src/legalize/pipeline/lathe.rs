@@ -5,9 +5,9 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
-    interpolations, lone_passes, lone_steps, modes, roughing, run_outs, steps, tap_feeds, thread_ways,
-    threads, written_corners, x_counts,
+    bare_starts, contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns,
+    holes, interpolations, lone_passes, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
+    written_corners, x_counts,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -43,6 +43,12 @@ pub(super) const FACES: Pass =
         .needs(&["start", "beside-moves"]);
 
 pub(super) const LATHE: &[Pass] = &[
+    Pass::edits(
+        "bare-starts",
+        "numbers of contours that stand in blocks without words go to the next block",
+        bare_starts::run,
+    )
+    .when(bare_starts::concerns),
     Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)
         .when(|c, _| corners::concerns(c))
         .needs(&["start", "beside-moves"]),
@@ -90,13 +96,6 @@ pub(super) const LATHE: &[Pass] = &[
         .when(|c, _| c.op(Op::ThreadingPass)),
     Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
         .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
-    Pass::each(
-        "lone-steps",
-        "increments that have no letter there count from where the block before ended",
-        lone_steps::run,
-    )
-    .when(lone_steps::concerns)
-    .needs(&["steps", "holes"]),
     Pass::rewrites("run-outs", "threads are told that they do not run out by a word", run_outs::run)
         .when(|c, context| run_outs::concerns(c, context.target)),
     Pass::reports(

@@ -106,6 +106,10 @@ impl<'a> Lowering<'a> {
             self.findings.not_understood(span, what);
             return false;
         }
+        if let Some((_, row)) = codes.iter().find(|(_, row)| row.op == Threading) {
+            self.two_blocks(word.letter, span, &row.code);
+            return false;
+        }
         match in_force {
             Some(row) if matches!(row.op, ArcCw | ArcCcw | ArcTangent) || special(row.op) => true,
             Some(row) if own || !self.motion.joined => {
@@ -196,10 +200,7 @@ impl<'a> Lowering<'a> {
             return self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
         }
         if self.lone_step(word).is_some() {
-            let message = "U, V, W and H are no increments in this G code system: there they are axes, if the machine has them, and \
-                           whether it takes them as increments too no source says";
-            let help = "write G91 and X, Y, Z, C in a block, and G90 after it; or name the axes in the machine profile";
-            return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+            return self.no_step(span);
         }
         if let Some(what) = not_converted(word, codes, in_force) {
             return self.findings.not_understood(span, what);

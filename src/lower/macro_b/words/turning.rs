@@ -8,6 +8,9 @@ use crate::lower::macro_b::build::Lowering;
 use crate::syntax::{self, ExprKind};
 use crate::text::Span;
 
+/// The setting that says whether U, V, W and H are increments in G code systems that have modes for them.
+const STEP_LETTERS: &str = "step_letters";
+
 /// The letters of [`Role::STEPS`].
 const LETTERS: [&str; 4] = ["X and U", "Y and V", "Z and W", "C and H"];
 
@@ -43,6 +46,33 @@ impl Lowering<'_> {
         }
         self.check_corner(nc, span);
         self.check_line(nc, span);
+    }
+
+    /// A letter that is an increment in G code system A, and in another one only where the machine's profile says so.
+    pub fn no_step(&mut self, span: Span) {
+        let as_places = "write G91 and X, Y, Z, C in a block, and G90 after it";
+        let told = if self.control.profile().settings.contains_key(STEP_LETTERS) {
+            let message = "U, V, W and H are no increments on this machine: its profile says so";
+            Diagnostic::new(Code::NotUnderstood, span, message).with_help(as_places)
+        } else {
+            let message = "U, V, W and H are increments of X, Y, Z and C in G code system A; whether this machine takes them so in its own \
+                           system too no source says";
+            let help = format!(
+                "if it does, write {STEP_LETTERS} = \"yes\" under [settings] in the machine's profile; if not, {as_places}"
+            );
+            let told = Diagnostic::new(Code::NotUnderstood, span, message).with_help(help);
+            told.lacking(format!("setting.{STEP_LETTERS}"))
+        };
+        self.findings.add(told);
+    }
+
+    /// A word of the two blocks of a thread of many passes, on a control that has one block for it.
+    pub fn two_blocks(&mut self, letter: char, span: Span, code: &str) {
+        let message = format!(
+            "{letter} has no meaning beside {code}: {code} with P, Q and R is written in two blocks on a Fanuc, and this control takes one"
+        );
+        let help = "name the Fanuc as the source if the program is one of it; else write the cycle in one block, with X, Z, K, D, F and A";
+        self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
     }
 
     /// True where X is written as a radius.
