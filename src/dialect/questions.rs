@@ -288,6 +288,8 @@ questions! {
     EndEndsCoolant "end.ends.coolant" YES, "the end of the program switches coolant off";
     OneGPerGroup "one.g.per.group" YES, "of G codes of one group in a block the last one counts, or it is \
                                          an error";
+    DistanceCode "distance.code" OneOf(&["block", "by.place", "unknown"]), "what a code for places or increments (G90, G91) counts for: its whole block, or the words behind it, up to \
+                                                                      the next of the two", if "said";
     WordTwice "word.twice" YES, "if a letter is in a block twice, the last value counts";
     BlockAssignsFirst "block.assigns.first" YES, "words use the values that their own block gave to variables before them";
     RepeatMoves "repeat.moves" YES, "a repeat word on a move runs the block so many times", if "role:repeat";
