@@ -301,6 +301,8 @@ questions! {
     ChangeRetracts "change.retracts" YES, "a tool change takes Z to the tool change position first, wherever the program left it", if "said";
     RotaryWay "rotary.way" OneOf(&["turns", "shortest", "sign", "unknown"]), "how a rotary axis goes to an absolute angle: turns and all, the shortest way to the place \
                                                                               within one turn, or the way that the sign says", if "said";
+    RotaryStart "rotary.start" OneOf(&["zero", "unknown"]), "a rotary axis stands at 0 when a program begins and after a return to the reference position, and has one zero under all work \
+                                                            offsets: the sign of an angle depends on where the axis stands", if "said";
     RotaryFeed "rotary.feed" OneOf(&["degrees", "surface", "unknown"]), "what a feed per minute is where a rotary axis moves: degrees, or the way of the surface by a \
                                                                          diameter that the control is told", if "said";
     ChangeLength "change.length" OneOf(&["kept", "cancelled", "unknown"]), "whether a tool change keeps the tool length in force, or cancels it until it is named again", if "op:tool.change";

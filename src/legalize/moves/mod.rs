@@ -15,6 +15,8 @@ pub(in crate::legalize) mod polar;
 pub(in crate::legalize) mod rapid_in_force;
 pub(in crate::legalize) mod rapid_once;
 pub(in crate::legalize) mod reference;
+pub(in crate::legalize) mod rotary_places;
+pub(in crate::legalize) mod rotary_ways;
 pub(in crate::legalize) mod rotations;
 pub(in crate::legalize) mod shaped;
 pub(in crate::legalize) mod shift;

@@ -251,3 +251,19 @@ fn g90_and_g91_count_for_the_words_behind_them() {
     places.iter().zip(expected).for_each(|(found, expected)| near(*found, expected));
     assert!(!doubts(&run).contains(&"behaviour:distance.code"));
 }
+
+/// The manual's examples (section 12, p. 266), and how far each block turns: 90, then by + to 45, back to 0, by - to 90.
+#[test]
+fn the_sign_of_an_angle_is_its_way() {
+    let run = lines("G90 G0 A90.\nA45.\nA-0\nA-90.\nG91 A-30.\nG90 A60.");
+    let places: Vec<f64> = run
+        .events
+        .iter()
+        .filter_map(|event| match &event.what {
+            EventKind::Rapid { to, .. } => Some(to.0[3]),
+            _ => None,
+        })
+        .collect();
+    // The last block finds the axis at 60 already.
+    assert_eq!(places, [90.0, 405.0, 360.0, 90.0, 60.0]);
+}

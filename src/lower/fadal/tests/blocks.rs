@@ -54,6 +54,7 @@ const BLOCKS: &[(&str, &str)] = &[
         "G1 G91 X1. G91 Y1. G90",
         "nc distance.incremental motion.linear axis.x=1 axis.y=1; nc distance.absolute",
     ),
+    ("G0 A-0", "nc motion.rapid axis.a=-0"),
     // Tools, spindle, coolant: in the order they are written in.
     ("T1M6", "nc tool=1 tool.change"),
     ("M6 T+R9", "nc tool.change tool=param.9"),
