@@ -14,6 +14,7 @@
 //! Every run ends: it is bounded in steps, in events and in time.
 
 mod by_need;
+mod by_place;
 pub mod cc100;
 pub mod entry;
 pub mod fadal;

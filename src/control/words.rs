@@ -1,5 +1,6 @@
 //! From the words of a block to a [`Command`], by the tables of the control.
 
+use super::by_place::ByPlace;
 use super::machine::Command;
 use super::outcome::Stop;
 use super::session::Session;
@@ -47,6 +48,8 @@ pub struct Read<'c> {
     pub codes: SmallVec<[&'c CodeMeaning; 4]>,
     /// Flow: calls, returns, ends, and what writes variables; the interpreter's.
     pub flow: SmallVec<[Op; 2]>,
+    /// Which of G90 and G91 counts where in the block, where one does not count for all of it.
+    pub by_place: Option<ByPlace>,
 }
 
 impl<'c> Read<'c> {
@@ -76,7 +79,10 @@ pub fn read<'c>(
     for word in words.iter().filter(|word| matches!(word.letter, 'G' | 'M')) {
         code(control, *word, &block, &mut read, trace)?;
     }
-    doubt_distance(words, &read, trace);
+    read.by_place = ByPlace::of(control, words, &read.codes);
+    if control.behaviour(Question::DistanceCode).is_none() {
+        doubt_distance(words, &read, trace);
+    }
     for row in &read.codes {
         match row.op.group() {
             Group::Motion => lasting.motion = Some(*row),
@@ -85,8 +91,13 @@ pub fn read<'c>(
         }
     }
     read.command.without_dwell = lasting.cycle.is_some_and(|row| !row.takes(Role::CycleDwell));
-    for word in words.iter().filter(|word| !matches!(word.letter, 'G' | 'M')) {
+    for (at, word) in words.iter().enumerate().filter(|(_, word)| !matches!(word.letter, 'G' | 'M')) {
+        let before = read.command.words.len();
         value(control, *word, increments, lasting, &mut read, trace);
+        let role = read.command.words.get(before).map(|(role, _)| *role);
+        if let (Some(by_place), Some(role)) = (&mut read.by_place, role) {
+            by_place.note(role, at);
+        }
     }
     Ok(read)
 }

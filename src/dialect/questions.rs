@@ -290,6 +290,8 @@ questions! {
     EndEndsCoolant "end.ends.coolant" YES, "the end of the program switches coolant off";
     OneGPerGroup "one.g.per.group" YES, "of G codes of one group in a block the last one counts, or it is \
                                          an error";
+    DistanceCode "distance.code" OneOf(&["block", "by.place", "unknown"]), "what a code for places or increments (G90, G91) counts for: its whole block, or the words after it, up to \
+                                                                      the next of the two", if "said";
     WordTwice "word.twice" YES, "if a letter is in a block twice, the last value counts";
     BlockAssignsFirst "block.assigns.first" YES, "words use the values that their own block gave to variables before them";
     RepeatMoves "repeat.moves" YES, "a repeat word on a move runs the block so many times", if "role:repeat";
@@ -301,6 +303,8 @@ questions! {
     ChangeRetracts "change.retracts" YES, "a tool change takes Z to the tool change position first, wherever the program left it", if "said";
     RotaryWay "rotary.way" OneOf(&["turns", "shortest", "sign", "unknown"]), "how a rotary axis goes to an absolute angle: turns and all, the shortest way to the place \
                                                                               within one turn, or the way that the sign says", if "said";
+    RotaryStart "rotary.start" OneOf(&["zero", "unknown"]), "a rotary axis stands at 0 when a program begins and after a return to the reference position, and has one zero under all work \
+                                                            offsets: the sign of an angle depends on where the axis stands", if "said";
     RotaryFeed "rotary.feed" OneOf(&["degrees", "surface", "unknown"]), "what a feed per minute is where a rotary axis moves: degrees, or the way of the surface by a \
                                                                          diameter that the control is told", if "said";
     ChangeLength "change.length" OneOf(&["kept", "cancelled", "unknown"]), "whether a tool change keeps the tool length in force, or cancels it until it is named again", if "op:tool.change";

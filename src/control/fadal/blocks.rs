@@ -18,6 +18,8 @@ use smallvec::SmallVec;
 struct Line {
     words: SmallVec<[Spoken; 12]>,
     set: SmallVec<[Register; 4]>,
+    /// How many words stand before the R0 that it sets.
+    plane_at: Option<usize>,
     /// The comment, which a stop shows.
     comment: Option<Span>,
 }
@@ -58,6 +60,7 @@ impl<'r> Interpreter<'r, '_> {
                     if let Index::Number(number) = target.index
                         && let Some(register) = Register::new(&target.name, number)
                     {
+                        line.plane_at = line.plane_at.or((register == PLANE).then_some(line.words.len()));
                         line.set.push(register);
                     }
                 }
@@ -90,6 +93,7 @@ impl<'r> Interpreter<'r, '_> {
         }
         let mut read = words::read(session, &line.words, &mut self.lasting)?;
         self.plane(&mut read, &line);
+        self.by_place(&mut read)?;
         self.before(&read, &line, asked)?;
         let printed = self.printed.take();
         let stops = read.command.has(Op::Stop);
@@ -166,6 +170,7 @@ impl<'r> Interpreter<'r, '_> {
             return Ok(Asked::Nothing);
         }
         let value = line.words.remove(place).value;
+        line.plane_at.iter_mut().filter(|before| **before > place).for_each(|before| *before -= 1);
         if value.fract() != 0.0 {
             self.session.act_as(Question::IntegerWordRounds, "true");
         }
@@ -210,6 +215,22 @@ impl<'r> Interpreter<'r, '_> {
         let Some(value) = self.registers.get(PLANE).or(otherwise) else { return };
         read.command.words.push((role, value));
         self.plane_moved &= role != Role::CycleR;
+        if let (Some(by_place), Some(before)) = (&mut read.by_place, line.plane_at) {
+            by_place.note(role, before);
+        }
+    }
+
+    /// G90 and G91 count for the words after them.
+    fn by_place(&mut self, read: &mut Read<'r>) -> Flow<()> {
+        let Some(by_place) = read.by_place.take() else { return Ok(()) };
+        let machine = &self.session.machine;
+        let ends = read.command.has(Op::CycleOff);
+        let drills = machine.cycle().is_some() && !ends || read.codes.iter().any(|row| row.op.is_cycle());
+        by_place.tell(&mut read.command, machine.is_incremental(), drills)?;
+        if by_place.matters() {
+            self.session.rest_on(Question::DistanceCode);
+        }
+        Ok(())
     }
 
     /// What must be in force before the block's words act.

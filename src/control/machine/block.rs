@@ -46,6 +46,9 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     }
     trace.zero(machine.zero());
     motion::run(machine, command, trace)?;
+    if let Some(mode) = command.distance_after {
+        machine.incremental = mode == Op::Incremental;
+    }
     auxiliary::behind(machine, command, &before, trace);
     for &op in &command.ops {
         match op {

@@ -19,6 +19,10 @@ pub struct Command {
     pub rounded: SmallVec<[(Role, f64); 2]>,
     /// True where the code of the drilling cycle in force takes no dwell.
     pub without_dwell: bool,
+    /// The axis words that say how far to go, whatever is in force.
+    pub steps: SmallVec<[Role; 3]>,
+    /// What is in force from the next block on, places or increments, where the block says so after its words.
+    pub distance_after: Option<Op>,
 }
 
 impl Command {
@@ -29,6 +33,8 @@ impl Command {
         self.own_code = None;
         self.rounded.clear();
         self.without_dwell = false;
+        self.steps.clear();
+        self.distance_after = None;
     }
 
     /// True where it says nothing.
@@ -64,7 +70,8 @@ impl Command {
 
     /// The same, with whether each says how far the axis goes from where it is.
     pub fn places(&self) -> impl Iterator<Item = (usize, f64, bool)> + '_ {
-        self.words.iter().filter_map(|(role, value)| Some((axis(*role)?, *value, role.is_step())))
+        let steps = |role: &Role| role.is_step() || self.steps.contains(role);
+        self.words.iter().filter_map(move |(role, value)| Some((axis(*role)?, *value, steps(role))))
     }
 
     /// True where an axis word stands in it.

@@ -135,6 +135,8 @@ pub(super) fn across(command: &Command, along: usize) -> Command {
         rounded: command.rounded.clone(),
         own_code: None,
         without_dwell: command.without_dwell,
+        steps: command.steps.clone(),
+        distance_after: command.distance_after,
     }
 }
 

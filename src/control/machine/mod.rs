@@ -28,6 +28,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod tooling;
+mod turns;
 
 pub use command::Command;
 pub use exit_state::ExitState;

@@ -330,18 +330,14 @@ impl Machine {
             let mut to = self.position;
             for (axis, value, by_itself) in command.places() {
                 let value = if is_rotary(axis) { value } else { value * unit };
-                to[axis] = if self.incremental || by_itself {
-                    to[axis] + value
-                } else {
-                    value + self.frame.shift(axis)
-                };
+                to[axis] = self.by_word(axis, to[axis], (value, by_itself), self.frame.shift(axis));
             }
             return to;
         }
         let mut work = self.frame.program(&self.position);
         for (axis, value, by_itself) in command.places() {
             let value = if is_rotary(axis) { value } else { value * unit };
-            work[axis] = if self.incremental || by_itself { work[axis] + value } else { value };
+            work[axis] = self.by_word(axis, work[axis], (value, by_itself), 0.0);
         }
         self.frame.machine(&work)
     }

@@ -99,7 +99,8 @@ impl Machine {
                 (_, Role::PolarAngle) => self.off(command, *role, *value).to_radians() * reach,
                 _ => continue,
             };
-            let named = axis(*role).map(|axis| (axis, role.is_step()));
+            let by_itself = role.is_step() || command.steps.contains(role);
+            let named = axis(*role).map(|axis| (axis, by_itself));
             for (at, kept) in self.rounding.axes.iter_mut().enumerate() {
                 // A polar word moves both axes of the plane.
                 if named.map_or(at < 3, |(axis, _)| axis == at) {

@@ -154,6 +154,8 @@ pub struct Rules {
     pub machine_move_is_rapid: bool,
     /// A code of the tool length without a word of Z moves Z by it.
     pub length_moves: bool,
+    /// The sign of an absolute angle is the way of its axis.
+    pub turns_by_sign: bool,
     /// A word of a rotary axis alone runs the cycle in force.
     pub cycle_runs_by_rotary: Fact<bool>,
     pub length_after_change: Fact<LengthAfter>,
@@ -309,6 +311,8 @@ impl Rules {
             ),
             machine_move_is_rapid: control.is(Question::MachineMoveRapid),
             length_moves: control.is(Question::LengthMoves),
+            turns_by_sign: control.machine() == Machine::Mill
+                && control.behaviour(Question::RotaryWay).is_some_and(|row| row.value == "sign"),
             cycle_runs_by_rotary: yes(control, Question::CycleRunsByRotary, true)
                 .or_silent(control, Question::CycleRunsByRotary),
             length_after_change: fact(control, Question::ChangeLength, length_after, LengthAfter::Kept)

@@ -20,9 +20,25 @@ impl<'p> Emitter<'p> {
         if let Some(parts) = self.as_two(nc) {
             return parts.iter().for_each(|items| self.block_of_words(site, &Nc { items: items.clone() }));
         }
+        let ordered = self.mode_first(nc);
         self.begin(site, Kind::Words);
-        self.words(nc);
+        self.words(ordered.as_ref().unwrap_or(nc));
         self.finish();
+    }
+
+    /// A block whose code for places or increments stands behind its words, with the code before them, where it counts for
+    /// no word before it.
+    fn mode_first(&self, nc: &Nc) -> Option<Nc> {
+        let is_mode = |item: &NcItem| matches!(item, NcItem::Op(op) if op.group() == Group::Distance);
+        let hangs =
+            |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_axis() || *role == Role::CycleR);
+        let word = nc.items.iter().position(hangs)?;
+        let mode = nc.items.iter().position(is_mode).filter(|mode| *mode > word)?;
+        self.control.behaviour(Question::DistanceCode).filter(|row| row.value != "block")?;
+        let mut items = nc.items.clone();
+        let mode = items.remove(mode);
+        items.insert(word, mode);
+        Some(Nc { items })
     }
 
     /// The two blocks that a block becomes, if it has to. A fixture is not chosen in the block of an arc; G53 and G92 stand with

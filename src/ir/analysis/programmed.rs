@@ -69,6 +69,11 @@ impl Programmed {
         }
     }
 
+    /// The words of X and Y, each where it is known.
+    pub fn axes(&self) -> [Option<Expr>; 2] {
+        self.0.clone()
+    }
+
     /// Takes a statement's effect; `modal` is what is in force after it.
     pub fn step(&mut self, stmt: &Stmt, modal: &Modal, summaries: &Summaries) {
         let before = stmt.site.skip.map(|_| self.clone());
@@ -94,8 +99,9 @@ impl Programmed {
             }
             _ => {}
         }
-        for word in &mut self.0 {
-            *word = word.take().filter(|word| !reads(word, &written));
+        for (word, step) in self.0.iter_mut().zip([Role::StepX, Role::StepY]) {
+            let steps = stmt.kind.nc().is_some_and(|nc| nc.word(step).is_some());
+            *word = word.take().filter(|word| !steps && !reads(word, &written));
         }
         if let Some(before) = before {
             self.join(&before);

@@ -9,8 +9,9 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Side};
 use crate::ir::analysis::modal::Ways;
-use crate::ir::{Expr, Module, Nc, NcItem};
+use crate::ir::{Module, Nc};
 use crate::legalize::features::Features;
+use crate::legalize::moves::rotary_places::{AXES, Places, RotaryPlaces, TURN, Way, degrees};
 use crate::legalize::{Context, Modal, Setting};
 use crate::text::Span;
 
@@ -30,7 +31,7 @@ pub(in crate::legalize) fn are_mills(context: &Context<'_>) -> bool {
 /// Says what programs rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    facts.each(module, &mut |index, stmt, before, after| {
+    facts.each(module, &mut |index, stmt, before, _| {
         let Some(nc) = stmt.kind.nc() else { return };
         if names_length(nc) && moves_by_code(nc, before) {
             rests(Question::LengthMoves, index, stmt.site.span, context);
@@ -40,8 +41,27 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         if told && nc.has(Op::MachineOnce) && nc.ops().any(|op| op.group() == Group::LengthComp) {
             context.rests_on_target(index, stmt.site.span, Question::LengthMoves);
         }
-        rotary(nc, after, index, stmt.site.span, context);
     });
+    let turns = |nc: &Nc| AXES.iter().any(|role| nc.word(*role).is_some());
+    let mut all = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    if !all.any(|stmt| stmt.kind.nc().is_some_and(turns)) {
+        return;
+    }
+    let (source, way) = (context.source, Way::of(context.source));
+    let places = RotaryPlaces::of(module, &facts, source);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let (mut state, mut here): (Modal, Places) = (facts.at(index, id), places.at(index, id));
+            for stmt in &block.stmts {
+                let (before, from) = (state.clone(), here.clone());
+                state.step(stmt);
+                here.step(stmt, (&before, &state), way, source);
+                if let Some(nc) = stmt.kind.nc() {
+                    rotary(nc, &state, &from, (index, stmt.site.span), context);
+                }
+            }
+        }
+    }
 }
 
 /// True where a block has something to say of the tool length.
@@ -75,23 +95,19 @@ pub(in crate::legalize) fn moves_by_code(nc: &Nc, before: &Modal) -> bool {
 }
 
 /// What a word of a rotary axis rests on.
-fn rotary(nc: &Nc, after: &Modal, index: usize, span: Span, context: &mut Context<'_>) {
-    let is_rotary = |role: Role| matches!(role, Role::A | Role::B | Role::C);
-    let words = || {
-        nc.items.iter().filter_map(|item| match item {
-            NcItem::Word(role, value) if is_rotary(*role) => Some(value),
-            _ => None,
-        })
-    };
+fn rotary(nc: &Nc, after: &Modal, from: &Places, (index, span): (usize, Span), context: &mut Context<'_>) {
     let aside = nc.ops().any(|op| op.takes_axes() || op == Op::ReferenceReturn || op == Op::Reference2);
-    if aside || words().next().is_none() {
+    if aside || AXES.iter().all(|role| nc.word(*role).is_none()) {
         return;
     }
-    // Between angles that are less than half a turn apart every axis goes the same way.
-    let within_half =
-        |value: &Expr| degrees(value, context.source).is_some_and(|a| (0.0..180.0).contains(&a));
-    if after.op(Group::Distance) != Some(Op::Incremental) && !words().all(within_half) {
-        rests(Question::RotaryWay, index, span, context);
+    if after.op(Group::Distance) != Some(Op::Incremental) && !goes_alike(nc, from, context) {
+        let by_sign = [context.source, context.target].map(|control| Way::of(control) == Way::Sign);
+        match by_sign {
+            // The angles are written as the other control turns.
+            [true, false] => context.rests_on_target(index, span, Question::RotaryWay),
+            [false, true] => context.rests_on_source(index, span, Question::RotaryWay),
+            _ => rests(Question::RotaryWay, index, span, context),
+        }
         open_way(index, span, context);
     }
     let feeds = after.op(Group::Motion).is_some_and(|op| op != Op::Rapid) && !nc.has(Op::RapidOnce);
@@ -99,6 +115,27 @@ fn rotary(nc: &Nc, after: &Modal, index: usize, span: Span, context: &mut Contex
     if feeds && !drills && after.op(Group::FeedMode) != Some(Op::FeedInverse) {
         feed_of_rotary(index, span, context);
     }
+}
+
+/// True where the axes go the same way to the angles of a block on every control that they may stand for. Between angles
+/// that are less than half a turn apart an axis with turns and one that takes the shorter way do; one that goes by the sign
+/// does too where the angle is no smaller than the one before it.
+fn goes_alike(nc: &Nc, from: &Places, context: &Context<'_>) -> bool {
+    let open =
+        |control: &Control| control.behaviour(Question::RotaryWay).is_some_and(|row| row.value == "unknown");
+    let way = Way::of(context.source);
+    let any = way == Way::Sign || open(context.source) || open(context.target);
+    AXES.into_iter().enumerate().filter_map(|(axis, role)| Some((axis, nc.word(role)?))).all(
+        |(axis, word)| {
+            let Some(angle) = degrees(word, context.source) else { return false };
+            let within_half = |parts: i64| parts >= 0 && 2 * parts < TURN;
+            match from.of(axis).turns(way, angle) {
+                _ if !any => (0.0..180.0).contains(&angle),
+                Some(turns) => turns.iter().all(|(from, by)| *by >= 0 && within_half(from + by)),
+                None => false,
+            }
+        },
+    )
 }
 
 /// A way that is not known of a control may be another one than that of the other: the answer decides whether the
@@ -142,15 +179,6 @@ fn feed_of_rotary(index: usize, span: Span, context: &mut Context<'_>) {
 
 const FEEDS: &str = "the feed per minute of this rotary axis is degrees on one of the two controls, and on the other the way of the \
      surface by a diameter that the machine is set to";
-
-/// The angle of a word, where it is a number.
-fn degrees(value: &Expr, control: &Control) -> Option<f64> {
-    match value {
-        Expr::Negate(inner) => degrees(inner, control).map(|angle| -angle),
-        Expr::Increments(count) => Some(count * control.numbers().increment_degrees),
-        value => value.constant(),
-    }
-}
 
 /// Asks a question, first of the control whose table has no answer; refuses where the answers are known to differ. A control
 /// whose table is silent is like most others.

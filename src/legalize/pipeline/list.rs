@@ -17,7 +17,7 @@ use crate::legalize::codes::{
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::{joined, start};
+use crate::legalize::moves::{joined, mixed_places, start};
 use crate::legalize::offsets::{offset_numbers, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
@@ -134,6 +134,8 @@ const TIDY: &[Pass] = &[
 ];
 
 const STRUCTURE: &[Pass] = &[
+    Pass::edits("mixed-places", "increments beside places, in one block, become places", mixed_places::run)
+        .when(mixed_places::concerns),
     Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
         .when(omitted::concerns),
     Pass::edits("variable-names", "names of variables go where the target shows none", variable_names::run)

@@ -8,8 +8,8 @@ use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     added_angles, bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar,
-    rapid_once, reference, rotations, shaped, shift, short_arcs, unit_agrees, unit_checks, units,
-    word_rounds,
+    rapid_once, reference, rotary_ways, rotations, shaped, shift, short_arcs, unit_agrees, unit_checks,
+    units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -27,6 +27,12 @@ pub(super) const LATER_LENGTHS: Pass = Pass::edits(
 pub(super) const MOVES: &[Pass] = &[
     Pass::reports("barred", "refuses what settings of the machines give another meaning", barred::run)
         .when(|_, context| barred::concerns(context)),
+    Pass::edits(
+        "rotary-ways",
+        "angles of rotary axes have the sign of their way, or what was turned",
+        rotary_ways::run,
+    )
+    .when(rotary_ways::concerns),
     Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
         .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
     Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)

@@ -150,8 +150,11 @@ impl Proposals {
         scenario.sets_named = self.inputs.sets_named;
         self.tables(&mut scenario, count);
         // The machine has those rotary axes that its programs name.
-        for axis in (3..6).filter(|axis| !self.inputs.rotary[axis - 3]) {
+        for axis in (3..6).filter(|axis| self.inputs.turns_by_sign || !self.inputs.rotary[axis - 3]) {
             scenario.start[axis] = 0.0;
+        }
+        if self.inputs.turns_by_sign && self.inputs.rotary.contains(&true) {
+            scenario.work_offsets.values_mut().for_each(|offset| offset[3..6].fill(0.0));
         }
         scenario.variables = variables;
         scenario.block_skip = self.skips.get(count % self.skips.len().max(1)).copied().unwrap_or(0);

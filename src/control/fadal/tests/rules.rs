@@ -240,3 +240,30 @@ fn a_hole_begins_at_the_plane_that_r0_holds() {
     assert_eq!(planes("G10 L100 P.3\n"), [0.2, 0.3]);
     assert_eq!(planes("#R1=.1\n"), [0.2, 0.2]);
 }
+
+/// X1. places, then Y1. an increment; the next block counts in increments, and its G90 from the block after it on.
+#[test]
+fn g90_and_g91_count_for_the_words_behind_them() {
+    let run = lines("G0 X0. Y5.\nG1 F9. G90 X2. G91 Y1.\nX1. G90\nX0. Y0.");
+    let places = feeds(&run);
+    let expected = [[2.0, 6.0, 0.0], [3.0, 6.0, 0.0], [0.0, 0.0, 0.0]];
+    assert_eq!(places.len(), expected.len());
+    places.iter().zip(expected).for_each(|(found, expected)| near(*found, expected));
+    assert!(!doubts(&run).contains(&"behaviour:distance.code"));
+}
+
+/// The manual's examples (section 12, p. 266), and how far each block turns: 90, then by + to 45, back to 0, by - to 90.
+#[test]
+fn the_sign_of_an_angle_is_its_way() {
+    let run = lines("G90 G0 A90.\nA45.\nA-0\nA-90.\nG91 A-30.\nG90 A60.");
+    let places: Vec<f64> = run
+        .events
+        .iter()
+        .filter_map(|event| match &event.what {
+            EventKind::Rapid { to, .. } => Some(to.0[3]),
+            _ => None,
+        })
+        .collect();
+    // The last block finds the axis at 60 already.
+    assert_eq!(places, [90.0, 405.0, 360.0, 90.0, 60.0]);
+}

@@ -45,7 +45,16 @@ const BLOCKS: &[(&str, &str)] = &[
     ("G0 Z.1 H+R9", "nc motion.rapid axis.z=0.1 length.plus offset.length=param.9 offset.radius=param.9"),
     ("D1", "nc offset.radius=1"),
     ("G1 G41 Y-R4", "nc motion.linear radius.left axis.y=-param.4"),
-    ("G1 Y+R4 G40 G90", "nc motion.linear axis.y=param.4 radius.off distance.absolute"),
+    // G90 and G91 count for the words after them (seed 000, O600 and O700).
+    ("G1 Y+R4 G40 G90", "nc motion.linear axis.y=param.4 radius.off; nc distance.absolute"),
+    ("G1 G90 X2. G91 Y1.", "nc distance.absolute motion.linear axis.x=2 step.y=1; nc distance.incremental"),
+    ("G1 G91 X2. G90 Y1.", "nc distance.absolute motion.linear step.x=2 axis.y=1"),
+    ("G1 G91 G90 Y1. G90", "nc distance.absolute motion.linear axis.y=1"),
+    (
+        "G1 G91 X1. G91 Y1. G90",
+        "nc distance.incremental motion.linear axis.x=1 axis.y=1; nc distance.absolute",
+    ),
+    ("G0 A-0", "nc motion.rapid axis.a=-0"),
     // Tools, spindle, coolant: in the order they are written in.
     ("T1M6", "nc tool=1 tool.change"),
     ("M6 T+R9", "nc tool.change tool=param.9"),
@@ -147,7 +156,6 @@ fn what_is_not_understood_refuses_the_program() {
         "G123",           // no row
         "M777",           // no row
         "G1 X1. Z1. Z2.", // which Z counts?
-        "G90 G91 X1.",    // contradiction
         "G0 G1 X1.",
         "G1 X1. P3.",    // P without a code that takes it
         "G10 L13 P1",    // which table?

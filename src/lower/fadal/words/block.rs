@@ -50,8 +50,8 @@ impl<'b> Lowering<'b> {
             }
         }
         self.motion_words(&mut reading, axes)?;
+        let mode_after = self.distance_by_place(&mut reading)?;
         self.block_facts(&mut reading, axes);
-        self.findings.distance_order(items);
         let Reading { items: mut words, .. } = reading;
         self.doubled(&mut words, span)?;
         for op in self.grouped(&mut words, span)? {
@@ -61,6 +61,9 @@ impl<'b> Lowering<'b> {
         if !words.is_empty() {
             words.shrink_to_fit();
             self.push(StmtKind::Nc(Nc { items: words }));
+        }
+        if let Some(op) = mode_after {
+            self.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] }));
         }
         if waits {
             self.push(StmtKind::StopMessage { number: Expr::Number(1.0).into(), text: "".into() });

@@ -45,8 +45,9 @@ impl<'b> Lowering<'b> {
             .items
             .iter()
             .any(|item| matches!(item, NcItem::Word(Role::X | Role::Y | Role::A | Role::B | Role::C, _)));
-        let incremental = codes.has(Op::Incremental)
-            || (!codes.has(Op::Absolute) && self.state.incremental.list().contains(&true));
+        let says = |op: Op| reading.items.contains(&NcItem::Op(op));
+        let incremental =
+            says(Op::Incremental) || (!says(Op::Absolute) && self.state.incremental.list().contains(&true));
         let begins = codes.motion().is_some_and(|row| row.op.is_cycle());
         if (begins || codes.motion().is_none() && self.in_cycle())
             && codes.value('R').is_some()

@@ -2,6 +2,7 @@
 
 mod block;
 mod calls;
+mod distance;
 mod facts;
 mod motion;
 mod plane;

@@ -36,7 +36,10 @@ impl<'b> Lowering<'b> {
                 if matches!(inner.kind, ExprKind::Negate(_)) {
                     return self.refuse(e.span, "a word has one sign");
                 }
-                self.nc_value(inner, role).map(negate)
+                let value = self.nc_value(inner, role)?;
+                let angle = matches!(role, Some(Role::A | Role::B | Role::C));
+                // The sign of an angle may be the way of its axis, that of 0 too.
+                Some(if angle && value == Expr::Number(0.0) { Expr::Number(-0.0) } else { negate(value) })
             }
             ExprKind::Variable(var) if var.name == "R" => {
                 if role.is_some_and(Role::is_integer) {

@@ -41,6 +41,7 @@ pub fn inputs_of_both(
     }
     found.skips.extend(other.skips);
     found.asks |= other.asks;
+    found.turns_by_sign |= other.turns_by_sign;
     for (own, others) in found.rotary.iter_mut().zip(other.rotary) {
         *own |= others;
     }

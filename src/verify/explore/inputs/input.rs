@@ -22,6 +22,9 @@ pub struct Inputs {
     pub sets_named: bool,
     /// True for each of A, B and C that a program of the library moves.
     pub rotary: [bool; 3],
+    /// True where the sign of an absolute angle is the way of its axis: then the way hangs on where the axis stands, and
+    /// conversions hold for one that stands at 0.
+    pub turns_by_sign: bool,
     /// True if the control has tool offsets past 99.
     pub many_tools: bool,
     /// The unit that the machine must be set to, where the program checks it: true for inch.

@@ -3,6 +3,7 @@
 use super::input::Inputs;
 use super::reader::Reader;
 use crate::control::ProgramRef;
+use crate::dialect::Question;
 use crate::syntax::{Item, ItemKind, Label};
 use crate::verify::compare::lacks_messages;
 use crate::verify::sides::Side;
@@ -45,7 +46,13 @@ pub fn inputs_by(side: &Side<'_>, program: ProgramRef, locals: bool, order: &[u3
             if at == 0 { order.to_vec() } else { labels(side, one).into_iter().take(LABELS).collect() };
         side.text(one).iter().for_each(|block| reader.items(&block.items, at == 0));
     }
-    Inputs { rotary: side.links().rotary(), many_tools: has_many_tools(side), ..reader.finish() }
+    let way = side.control.behaviour(Question::RotaryWay);
+    Inputs {
+        rotary: side.links().rotary(),
+        turns_by_sign: way.is_some_and(|row| row.value == "sign"),
+        many_tools: has_many_tools(side),
+        ..reader.finish()
+    }
 }
 
 /// True if a table of tool offsets has more rows than two digits count.

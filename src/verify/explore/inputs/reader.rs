@@ -286,6 +286,7 @@ impl<'c> Reader<'c> {
             asks: self.asks,
             sets_named: false,
             rotary: [false; 3],
+            turns_by_sign: false,
             many_tools: false,
             inch: self.inch,
             selected: self.selected,

@@ -1,0 +1,283 @@
+//! Where rotary axes stand, in the coordinates of the program, as far as its text tells.
+//!
+//! An angle is what its axis has turned by, whole turns too: after `A90.` and an increment of 360 it is 450. A program that
+//! others call and that names an angle begins with none known, as it may be run by itself. At the start of others, after a
+//! return to the reference position and under another work offset the axes are taken to stand at 0, or where they stood.
+
+use crate::canon::{Group, Op, Role, Sys};
+use crate::dialect::{Control, Question};
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::over_calls::{Follow, OverCalls, called};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Place, Program, Stmt, StmtKind};
+use crate::legalize::{Modal, ModalFacts};
+use std::collections::BTreeSet;
+
+/// The rotary axes.
+pub(in crate::legalize) const AXES: [Role; 3] = [Role::A, Role::B, Role::C];
+
+/// Angles that are told apart at one place, at the most.
+const MOST: usize = 12;
+
+/// How a rotary axis goes to an angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::legalize) enum Way {
+    /// Turns and all.
+    Turns,
+    /// The shorter way to the place within one turn.
+    Shortest,
+    /// To the place within one turn, the way that the sign says.
+    Sign,
+}
+
+impl Way {
+    /// That of a control; one that is silent, or of which nobody knows, is taken to turn.
+    pub(in crate::legalize) fn of(control: &Control) -> Self {
+        match control.behaviour(Question::RotaryWay).map(|row| row.value.as_str()) {
+            Some("sign") => Self::Sign,
+            Some("shortest") => Self::Shortest,
+            _ => Self::Turns,
+        }
+    }
+
+    /// How far an axis turns from a place by a word, in the same parts of a degree; none where that is not known.
+    pub(in crate::legalize) fn turn(self, from: i64, word: f64) -> Option<i64> {
+        let ahead = (parts(word.abs()) - from).rem_euclid(TURN);
+        match self {
+            Self::Turns => Some(parts(word) - from),
+            Self::Sign if ahead == 0 => Some(0),
+            Self::Sign if word.is_sign_negative() => Some(ahead - TURN),
+            Self::Sign => Some(ahead),
+            Self::Shortest => match (parts(word) - from).rem_euclid(TURN) {
+                ahead if 2 * ahead < TURN => Some(ahead),
+                ahead if 2 * ahead > TURN => Some(ahead - TURN),
+                _ => None,
+            },
+        }
+    }
+}
+
+/// A turn, in millionths of a degree.
+pub(in crate::legalize) const TURN: i64 = 360_000_000;
+
+/// An angle in millionths of a degree.
+pub(in crate::legalize) fn parts(degrees: f64) -> i64 {
+    (degrees * 1e6).round() as i64
+}
+
+/// Where an axis may stand.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::legalize) struct Stands {
+    /// The angles that it may have; none where that is not known.
+    pub at: Option<BTreeSet<i64>>,
+    /// True where that rests on where the axis stands when a program begins, or on work offsets that are alike.
+    pub assumed: bool,
+}
+
+impl Stands {
+    fn at(angle: i64, assumed: bool) -> Self {
+        Self { at: Some(BTreeSet::from([angle])), assumed }
+    }
+
+    const UNKNOWN: Self = Self { at: None, assumed: false };
+
+    /// Where a word takes it: from each angle by how far.
+    pub(in crate::legalize) fn turns(&self, way: Way, word: f64) -> Option<Vec<(i64, i64)>> {
+        self.at.as_ref()?.iter().map(|from| Some((*from, way.turn(*from, word)?))).collect()
+    }
+}
+
+/// Where all of them may stand.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::legalize) struct Places([Stands; 3]);
+
+impl Lattice for Places {
+    fn join(&mut self, other: &Self) -> bool {
+        let mut changed = false;
+        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
+            let before = mine.clone();
+            mine.assumed |= theirs.assumed;
+            mine.at = match (mine.at.take(), &theirs.at) {
+                (Some(mine), Some(theirs)) => {
+                    Some(mine.union(theirs).copied().collect::<BTreeSet<_>>()).filter(|all| all.len() <= MOST)
+                }
+                _ => None,
+            };
+            changed |= *mine != before;
+        }
+        changed
+    }
+}
+
+impl Places {
+    /// Where an axis stands.
+    pub(in crate::legalize) fn of(&self, axis: usize) -> &Stands {
+        self.0.get(axis).unwrap_or(&Stands::UNKNOWN)
+    }
+
+    fn start() -> Self {
+        Self(std::array::from_fn(|_| Stands::at(0, true)))
+    }
+
+    fn forget(&mut self) {
+        *self = Self(std::array::from_fn(|_| Stands::UNKNOWN));
+    }
+
+    /// Takes a statement; `before` and `after` are what is in force around it.
+    pub(in crate::legalize) fn step(
+        &mut self,
+        stmt: &Stmt,
+        (before, after): (&Modal, &Modal),
+        way: Way,
+        control: &Control,
+    ) {
+        let kept = stmt.site.skip.map(|_| self.clone());
+        match &stmt.kind {
+            StmtKind::Nc(nc) => {
+                let incremental = after.op(Group::Distance).map(|op| op == Op::Incremental);
+                self.words(nc, incremental, way, control);
+                if before.may_call() && nc.moves() {
+                    self.forget();
+                }
+            }
+            StmtKind::Assign { target: Place::System(Sys::WorkOffset, subscripts), .. } => {
+                let axis = subscripts.last().and_then(Expr::constant);
+                if axis.is_none_or(|axis| axis > 3.0) {
+                    self.forget();
+                }
+            }
+            _ => {}
+        }
+        if let Some(kept) = kept {
+            self.join(&kept);
+        }
+    }
+
+    fn words(&mut self, nc: &Nc, incremental: Option<bool>, way: Way, control: &Control) {
+        for (axis, role) in AXES.into_iter().enumerate() {
+            let Some(word) = nc.word(role) else { continue };
+            let mine = &mut self.0[axis];
+            let value = degrees(word, control);
+            *mine = match (value, incremental) {
+                (Some(value), _) if nc.has(Op::SetPosition) => Stands::at(parts(value), false),
+                _ if is_aside(nc) || nc.word(Role::Repeat).is_some() => Stands::UNKNOWN,
+                (Some(value), Some(true)) => {
+                    let by = parts(value);
+                    let at = mine.at.take().map(|at| at.iter().map(|at| at.saturating_add(by)).collect());
+                    Stands { at, assumed: mine.assumed }
+                }
+                (Some(value), Some(false)) => {
+                    let at = mine.turns(way, value);
+                    let at = at.map(|all| all.iter().map(|(from, by)| from + by).collect());
+                    // A place that is named is known, wherever the axis came from.
+                    let named = || BTreeSet::from([parts(value.abs())]);
+                    let at = if way == Way::Turns {
+                        Some(BTreeSet::from([parts(value)]))
+                    } else {
+                        at.or(Some(named()))
+                    };
+                    Stands { at, assumed: false }
+                }
+                _ => Stands::UNKNOWN,
+            };
+        }
+        if nc.ops().any(|op| matches!(op, Op::SelectWork | Op::ShiftCancel)) {
+            self.0.iter_mut().for_each(|mine| mine.assumed = true);
+        }
+        let returns = |op: Op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home);
+        if let Some(op) = nc.ops().find(|op| returns(*op)) {
+            let all = !nc.names_axis();
+            for (mine, role) in self.0.iter_mut().zip(AXES) {
+                if all || nc.word(role).is_some() {
+                    *mine = if op == Op::Reference2 { Stands::UNKNOWN } else { Stands::at(0, true) };
+                }
+            }
+        }
+    }
+}
+
+/// True for a block whose axis words are no angles to go to.
+pub(in crate::legalize) fn is_aside(nc: &Nc) -> bool {
+    nc.ops().any(|op| op.takes_axes() || op == Op::MachineOnce)
+}
+
+/// The angle of a word, where it is a number.
+pub(in crate::legalize) fn degrees(value: &Expr, control: &Control) -> Option<f64> {
+    match value {
+        Expr::Negate(inner) => degrees(inner, control).map(|angle| -angle),
+        Expr::Increments(count) => Some(count * control.numbers().increment_degrees),
+        value => value.constant(),
+    }
+}
+
+/// Follows them over a library.
+pub(in crate::legalize) struct RotaryPlaces {
+    known: OverCalls<Places>,
+    /// The programs that begin with none known.
+    alone: Vec<bool>,
+}
+
+impl RotaryPlaces {
+    /// Those of a library; `facts` says what is in force.
+    pub(in crate::legalize) fn of(module: &Module, facts: &ModalFacts, control: &Control) -> Self {
+        let called = called(module);
+        let alone: Vec<bool> = (module.programs.iter().zip(called).enumerate())
+            .map(|(index, (program, called))| called && names_angle(program, &|id| facts.at(index, id)))
+            .collect();
+        let rules = Rules { facts, control, way: Way::of(control), alone: &alone };
+        Self { known: OverCalls::of(module, &rules), alone }
+    }
+
+    /// Where they may stand at the start of a block; a block that no run reaches knows nothing.
+    pub(in crate::legalize) fn at(&self, program: usize, id: BlockId) -> Places {
+        let begins = id == BlockId(0) && self.alone.get(program).copied().unwrap_or(true);
+        let known = self.known.at(program, id).filter(|_| !begins).cloned();
+        known.unwrap_or_else(|| Places(std::array::from_fn(|_| Stands::UNKNOWN)))
+    }
+}
+
+/// True for a program with an angle to go to.
+fn names_angle(program: &Program, modal: &dyn Fn(BlockId) -> Modal) -> bool {
+    program.ids().zip(&program.blocks).any(|(id, block)| {
+        let mut state = modal(id);
+        block.stmts.iter().any(|stmt| {
+            state.step(stmt);
+            let absolute = state.op(Group::Distance) != Some(Op::Incremental);
+            absolute && stmt.kind.nc().is_some_and(|nc| nc.items.iter().any(is_angle))
+        })
+    })
+}
+
+fn is_angle(item: &NcItem) -> bool {
+    matches!(item, NcItem::Word(role, _) if AXES.contains(role))
+}
+
+struct Rules<'r> {
+    facts: &'r ModalFacts,
+    control: &'r Control,
+    way: Way,
+    alone: &'r [bool],
+}
+
+impl Follow for Rules<'_> {
+    type Known = Places;
+
+    fn outside(&self, _: usize) -> Places {
+        Places::start()
+    }
+
+    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, known: &mut Places) {
+        if id == BlockId(0) && self.alone.get(index).copied().unwrap_or(true) {
+            known.forget();
+        }
+        let mut state = self.facts.at(index, id);
+        for stmt in &block.stmts {
+            let before = state.clone();
+            state.step(stmt);
+            known.step(stmt, (&before, &state), self.way, self.control);
+        }
+    }
+
+    fn lose(&self, known: &mut Places) {
+        known.forget();
+    }
+}

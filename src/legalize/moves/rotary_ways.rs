@@ -1,0 +1,156 @@
+//! Angles of rotary axes, where the sign of an angle is the way of its axis on one of the two controls.
+//!
+//! Law: an axis turns by as much as it turned by, and the same way. On a control of signs an absolute word is a place within one
+//! turn, and its sign the way there; elsewhere it is what the axis has turned by, or the shorter way is taken. Side conditions:
+//! where the axis stands before is known from the text, and the angle is a number; less than a whole turn; less than half of one
+//! where the shorter way is taken. What is in increments stays. Counter-example: `A360.` after `A0.`, a whole turn, which no place
+//! with a sign says.
+
+use super::rotary_places::{AXES, Places, RotaryPlaces, Stands, TURN, Way, degrees, is_aside, parts};
+use crate::canon::{Group, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question, Side};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::assumptions::shop::are_mills;
+use crate::legalize::features::Features;
+use crate::text::Span;
+
+/// True between two mills of which one alone goes by the sign, if rotary axes move.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let by_sign = [context.source, context.target].map(|control| Way::of(control) == Way::Sign);
+    by_sign[0] != by_sign[1] && are_mills(context) && AXES.iter().any(|role| features.role(*role))
+}
+
+/// Writes the angles; true if one is another.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let facts = context.modal_facts(module);
+    let source = context.source;
+    let places = RotaryPlaces::of(module, &facts, source);
+    let ways = (Way::of(source), Way::of(context.target));
+    let mut changed = false;
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let id = BlockId(at as u32);
+            let (mut state, mut here) = (facts.at(index, id), places.at(index, id));
+            for stmt in &mut block.stmts {
+                let (before, from) = (state.clone(), here.clone());
+                state.step(stmt);
+                here.step(stmt, (&before, &state), ways.0, source);
+                let span = stmt.site.span;
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                match state.op(Group::Distance) {
+                    Some(Op::Incremental) => {}
+                    Some(_) => changed |= angles(nc, &from, ways, (index, span), context),
+                    None if moves_axis(nc) => refuse(MODE, MODE_HELP, (index, span), context),
+                    None => {}
+                }
+            }
+        }
+    }
+    changed
+}
+
+fn moves_axis(nc: &Nc) -> bool {
+    AXES.iter().any(|role| nc.word(*role).is_some())
+}
+
+/// Writes the angles of a block.
+fn angles(
+    nc: &mut Nc,
+    from: &Places,
+    (ours, theirs): (Way, Way),
+    place: (usize, Span),
+    context: &mut Context<'_>,
+) -> bool {
+    if nc.has(Op::MachineOnce) && moves_axis(nc) {
+        refuse(MACHINE, MACHINE_HELP, place, context);
+    }
+    if is_aside(nc) {
+        return false;
+    }
+    let mut changed = false;
+    for item in &mut nc.items {
+        let NcItem::Word(role, value) = item else { continue };
+        let Some(axis) = AXES.iter().position(|axis| axis == role) else { continue };
+        let Some(angle) = degrees(value, context.source) else {
+            refuse(COMPUTED, HELP, place, context);
+            continue;
+        };
+        let stands = from.of(axis);
+        match written(stands, angle, ours, theirs) {
+            Ok(written) => {
+                if stands.assumed {
+                    rests(place, context);
+                }
+                if written.to_bits() != angle.to_bits() {
+                    *value = Expr::Number(written);
+                    changed = true;
+                }
+            }
+            Err((what, help)) => refuse(what, help, place, context),
+        }
+    }
+    changed
+}
+
+/// The word by which an axis on the target turns as it does on the source.
+fn written(stands: &Stands, angle: f64, ours: Way, theirs: Way) -> Result<f64, (&'static str, &'static str)> {
+    let turns = stands.turns(ours, angle).ok_or((UNKNOWN, HELP))?;
+    let (mut to, mut by) = (turns.iter().map(|(from, by)| from + by), turns.iter().map(|(_, by)| *by));
+    match theirs {
+        Way::Sign => {
+            if by.clone().any(|by| by.abs() >= TURN) {
+                return Err((WHOLE, HELP));
+            }
+            let place = parts(angle_of(ours, angle)).rem_euclid(TURN) as f64 / 1e6;
+            match (by.clone().any(|by| by > 0), by.any(|by| by < 0)) {
+                (true, true) => Err((EITHER, HELP)),
+                (_, true) => Ok(-place),
+                (_, false) => Ok(place),
+            }
+        }
+        Way::Shortest if by.any(|by| 2 * by.abs() >= TURN) => Err((HALF, HELP)),
+        Way::Shortest => Ok(angle_of(ours, angle)),
+        Way::Turns => {
+            let first = to.next().ok_or((UNKNOWN, HELP))?;
+            if to.all(|to| to == first) { Ok(first as f64 / 1e6) } else { Err((TURNED, HELP)) }
+        }
+    }
+}
+
+/// The place of a word: where the sign is the way, it is no part of the place.
+fn angle_of(way: Way, angle: f64) -> f64 {
+    if way == Way::Sign { angle.abs() } else { angle }
+}
+
+/// Asks where the axis stands when a program begins, of the control that goes by the sign.
+fn rests((index, span): (usize, Span), context: &mut Context<'_>) {
+    if Way::of(context.source) == Way::Sign {
+        context.rests_on_source(index, span, Question::RotaryStart);
+    } else {
+        context.rests_on_target(index, span, Question::RotaryStart);
+    }
+}
+
+fn refuse(what: &'static str, help: &'static str, (index, span): (usize, Span), context: &mut Context<'_>) {
+    let side = if Way::of(context.source) == Way::Sign { Side::Source } else { Side::Target };
+    let control: &Control = if side == Side::Source { context.source } else { context.target };
+    let text =
+        format!("{what}; on the {} the sign of an angle is the way of its axis", control.dialect().title);
+    context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, text).with_help(help));
+}
+
+const UNKNOWN: &str =
+    "where the rotary axis stands before this angle is not known, and so the way that it turns is not";
+const COMPUTED: &str = "this angle is computed, and so the way that the rotary axis turns is not known";
+const WHOLE: &str = "the rotary axis turns by a whole turn or more here";
+const EITHER: &str = "the rotary axis comes to this angle from both sides";
+const HALF: &str = "the rotary axis turns by half a turn or more here, and the target takes the shorter way";
+const TURNED: &str = "how many turns the rotary axis has made before this angle is not known";
+const MODE: &str = "whether G90 or G91 is in force at this angle is not known";
+const MODE_HELP: &str = "write G90 or G91 before it";
+const MACHINE: &str = "a rotary axis in machine coordinates: no source says which way it turns";
+const MACHINE_HELP: &str = "write the move without the rotary axis, or in coordinates of the program";
+const HELP: &str = "write how far the axis turns, in a block with G91; or bring it to a known angle before, by G28 or G92 in this \
+                    program";
