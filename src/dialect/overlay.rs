@@ -294,10 +294,12 @@ impl Overlay {
             let Some(run) = self.runs("reserved", std::slice::from_ref(&text)).pop() else { continue };
             let mut classes = table.iter().chain(&dialect.variables);
             if run.kind.is_none() && !classes.any(|class| run.meets(class)) {
-                let names: BTreeSet<&str> = dialect.variables.iter().map(|class| class.name.as_str()).collect();
+                let names: BTreeSet<&str> =
+                    dialect.variables.iter().map(|class| class.name.as_str()).collect();
                 let names = names.into_iter().collect::<Vec<_>>().join(", ");
                 let message = format!("{} has no variables {text}", dialect.title);
-                let help = format!("name variables of this control, which begin with {names}, or leave it out");
+                let help =
+                    format!("name variables of this control, which begin with {names}, or leave it out");
                 self.fault(&format!("reserved:{text}"), message, help);
             }
             runs.push(run);

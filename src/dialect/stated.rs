@@ -87,11 +87,7 @@ impl Overlay {
             if found == 0 && self.names_no_code(&fact) {
                 let code = fact.trim_start_matches("code:");
                 let help = format!("leave it out, or say under [[site]] what {code} does on this machine");
-                self.fault(
-                    &format!("confirm:{fact}"),
-                    format!("{} has no code {code}", dialect.title),
-                    help,
-                );
+                self.fault(&format!("confirm:{fact}"), format!("{} has no code {code}", dialect.title), help);
             } else if found == 0 && matters::meaning(&fact).is_none() && !is_without_row(&fact) {
                 let mut names = Vec::new();
                 each_row(dialect, &mut |name, _| names.push(name.to_string()));
@@ -110,7 +106,8 @@ impl Overlay {
     /// True for a G code that no row of the control's table has, of no setting and no option. M codes may be of the
     /// machine's builder.
     fn names_no_code(&self, fact: &str) -> bool {
-        let Some(code) = fact.strip_prefix("code:").filter(|code| code.starts_with('G') && is_code(code)) else {
+        let Some(code) = fact.strip_prefix("code:").filter(|code| code.starts_with('G') && is_code(code))
+        else {
             return false;
         };
         let table = registry::find(&self.profile.dialect).and_then(|entry| entry.dialect().ok());

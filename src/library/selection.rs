@@ -25,7 +25,10 @@ impl Selection {
     /// The key with a pattern that is wrong, and what is wrong with it.
     pub(super) fn of(library: &Library) -> Result<Self, (&'static str, String)> {
         if library.only.as_ref().is_some_and(Vec::is_empty) {
-            return Err(("only", "'only' names no file: leave it out to take all files of the folder".into()));
+            return Err((
+                "only",
+                "'only' names no file: leave it out to take all files of the folder".into(),
+            ));
         }
         let only = library.only.as_ref().map(|only| matchers("only", only)).transpose()?;
         Ok(Self { only, except: matchers("except", &library.except)? })

@@ -50,10 +50,19 @@ fn profiles_say_what_is_wrong_and_where() {
 #[test]
 fn profiles_that_say_nonsense_are_wrong() {
     let fadal = |line: &str, expected: &str| wrong(&format!("dialect = \"fadal\"\n{line}"), expected);
-    fadal("confirm = [\"code:G999\"]", "p.toml:2:12: MG0203: Fadal has no code G999 (leave it out, or say under");
-    fadal("reserved = [\"V1\", \"#100\"]", "p.toml:2:19: MG0203: Fadal has no variables #100 (name variables");
+    fadal(
+        "confirm = [\"code:G999\"]",
+        "p.toml:2:12: MG0203: Fadal has no code G999 (leave it out, or say under",
+    );
+    fadal(
+        "reserved = [\"V1\", \"#100\"]",
+        "p.toml:2:19: MG0203: Fadal has no variables #100 (name variables",
+    );
     fadal("reserved = [\"V200-V300\"]", "p.toml:2:13: MG0203: Fadal has no variables V200-V300");
-    fadal("variables = [\"V1-V500\"]", "p.toml:2:14: MG0203: Fadal does not have all of the variables V1-V500");
+    fadal(
+        "variables = [\"V1-V500\"]",
+        "p.toml:2:14: MG0203: Fadal does not have all of the variables V1-V500",
+    );
     fadal("axes = []", "p.toml:2:8: MG0203: 'axes = []' says that the machine has none");
     fadal("variables = []", "'variables = []' says that the machine has none");
     fadal("offsets = 0", "p.toml:2:11: MG0203: 'offsets = 0' says that the machine has none");
