@@ -5,7 +5,7 @@ use super::shelves::{Asked, Shelves, shelves};
 use super::streams::{complain, print};
 use super::{FOUND, WELL, common};
 use crate::check::{Allowed, Baseline, Cache, Checked, Part, Request, Selection, check};
-use crate::library::{Checks, write_file};
+use crate::library::{Checks, ProjectPlaces, write_file};
 use crate::report;
 use crate::verify::Effort;
 use std::path::{Path, PathBuf};
@@ -94,7 +94,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         machines: &arguments.machine,
     };
     let found = shelves(&asked)?;
-    let selection = selection(arguments, &found.checks)?;
+    let selection = selection(arguments, &found.checks, &found.places)?;
     let allowed = allowed(&found)?;
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::load(path).map_err(complain)?),
@@ -146,7 +146,7 @@ fn text(arguments: &Arguments, checked: &Checked) -> String {
 }
 
 /// The codes that count: the arguments' choice goes before that of the project file, what both leave out adds up.
-fn selection(arguments: &Arguments, checks: &Checks) -> Result<Selection, u8> {
+fn selection(arguments: &Arguments, checks: &Checks, places: &ProjectPlaces) -> Result<Selection, u8> {
     let both = |ours: &[String], theirs: &[String]| [ours, theirs].concat();
     let select = if arguments.select.is_empty() { &checks.select } else { &arguments.select };
     let selection = Selection {
@@ -155,18 +155,26 @@ fn selection(arguments: &Arguments, checks: &Checks) -> Result<Selection, u8> {
         ignore: both(&arguments.ignore, &checks.ignore),
     };
     match selection.unknown().first() {
-        Some(text) => Err(complain(format!(
-            "'{text}' is no code and no beginning of one: `macroglot explain` lists them"
-        ))),
+        Some(text) => {
+            let lists = [("select", &checks.select), ("extend_select", &checks.extend_select)];
+            let mut lists = lists.into_iter().chain([("ignore", &checks.ignore)]);
+            let place = lists.find_map(|(key, list)| {
+                let at = list.iter().position(|one| one == text)?;
+                Some(places.named(&["checks", key, &at.to_string()]) + ": ")
+            });
+            let place = place.unwrap_or_default();
+            let what = "is no code and no beginning of one: `macroglot explain` lists them";
+            Err(complain(format!("{place}'{text}' {what}")))
+        }
         None => Ok(selection),
     }
 }
 
 /// What the project file allows.
 fn allowed(found: &Shelves) -> Result<Vec<Allowed>, u8> {
-    let allowed = found.checks.allow.iter().map(|allow| {
-        let fault =
-            |why: String| complain(format!("{}: [[checks.allow]]: {why}", crate::library::Project::NAME));
+    let allowed = found.checks.allow.iter().enumerate().map(|(at, allow)| {
+        let place = found.places.named(&["checks", "allow", &at.to_string()]);
+        let fault = |why: String| complain(format!("{place}: [[checks.allow]]: {why}"));
         Allowed::new(&allow.code, &allow.path, &allow.reason, &found.root).map_err(fault)
     });
     allowed.collect()

@@ -248,6 +248,9 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
     let wanted = |name: Option<&str>, control: &Control| name.is_none_or(|name| name == control.name());
     let mut ways = Vec::new();
     for (name, library) in &project.libraries {
+        if let Some(what) = project.missing(name) {
+            return Err(complain(what));
+        }
         for (machine, folder) in &library.targets {
             let (source, target) = meeting(control_of(&library.machine)?, control_of(machine)?)?;
             if wanted(wish.from, &source) && wanted(wish.to, &target) {

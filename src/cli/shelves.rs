@@ -6,7 +6,7 @@ use super::streams::{complain, remark};
 use crate::check::{Output, Shelf};
 use crate::dialect::{Control, registry};
 use crate::library::{
-    Answers, Checks, Folder, Input, Library, Lock, Manifest, Project, of_target, profiles_of,
+    Answers, Checks, Folder, Input, Library, Lock, Manifest, Project, ProjectPlaces, of_target, profiles_of,
 };
 use std::path::{Path, PathBuf};
 
@@ -28,6 +28,8 @@ pub struct Shelves {
     pub shelves: Vec<Shelf>,
     /// What the project file says of checks.
     pub checks: Checks,
+    /// Where the project file says it.
+    pub places: ProjectPlaces,
     /// The folder that files are seen from.
     pub root: PathBuf,
     /// The signed reports.
@@ -86,6 +88,7 @@ fn of_paths(asked: &Asked<'_>) -> Result<Shelves, u8> {
     Ok(Shelves {
         shelves: vec![shelf],
         checks: Checks::default(),
+        places: ProjectPlaces::default(),
         root: std::env::current_dir().unwrap_or_default(),
         signed: Vec::new(),
         read: asked.machines.to_vec(),
@@ -100,6 +103,9 @@ fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
     let wanted: Vec<PathBuf> = wanted.collect::<Result<_, u8>>()?;
     let mut shelves = Vec::new();
     for (name, library) in &project.libraries {
+        if let Some(what) = project.missing(name) {
+            return Err(complain(what));
+        }
         // A shared program is looked at with the first folder that has it.
         for (at, programs) in
             library.folders(|path| short(&project.root.join(path)), &endings()).into_iter().enumerate()
@@ -117,6 +123,7 @@ fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
     Ok(Shelves {
         shelves,
         checks: project.checks.clone(),
+        places: project.places.clone(),
         root: project.root.clone(),
         signed: project.checks.signed.iter().map(|report| short(&project.root.join(report))).collect(),
         read: vec![project.root.join(Project::NAME)],

@@ -153,6 +153,9 @@ pub struct Text {
     pub comments_in_a_row: Option<u32>,
     /// Most characters of a message to the operator.
     pub message: Option<u32>,
+    /// Signs that a message cannot have.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub message_lacks: String,
     /// Where these come from.
     #[serde(skip_deserializing)]
     pub origin: Origin,

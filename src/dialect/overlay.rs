@@ -3,7 +3,7 @@
 use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
-use super::{Behaviour, Control, Dialect, Entry, Mark, SystemVariable, registry};
+use super::{Behaviour, Control, Dialect, Entry, Mark, SystemVariable, VariableClass, registry};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,10 +24,12 @@ impl Control {
         overlay.doubt(&mut dialect);
         overlay.behaviours(&mut dialect);
         overlay.limits(&mut dialect);
+        overlay.counts();
         extents::clamp(&mut dialect, &overlay.profile);
         overlay.axes(&mut dialect);
-        let reserved = overlay.reserved();
+        let table = dialect.variables.clone();
         overlay.keep_variables(&mut dialect);
+        let reserved = overlay.reserved(&table, &dialect);
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
@@ -270,8 +272,38 @@ impl Overlay {
             .collect();
     }
 
-    fn reserved(&mut self) -> Vec<VariableRun> {
-        let runs = self.runs("reserved", &self.profile.reserved.clone());
+    /// A machine without an axis, a variable or a tool offset is none.
+    fn counts(&mut self) {
+        let none = |list: bool| if list { "[]" } else { "0" };
+        let profile = &self.profile;
+        let empty = [
+            ("axes", profile.axes.as_ref().is_some_and(Vec::is_empty), true),
+            ("variables", profile.variables.as_ref().is_some_and(Vec::is_empty), true),
+            ("offsets", profile.offsets == Some(0), false),
+        ];
+        for (name, _, list) in empty.into_iter().filter(|(_, empty, _)| *empty) {
+            let message = format!("'{name} = {}' says that the machine has none", none(list));
+            self.fault(name, message, "write those that it has, or remove the line".into());
+        }
+    }
+
+    /// The variables that programs must not be given. A run without any variable of the control is a slip.
+    fn reserved(&mut self, table: &[VariableClass], dialect: &Dialect) -> Vec<VariableRun> {
+        let mut runs = Vec::new();
+        for text in self.profile.reserved.clone() {
+            let Some(run) = self.runs("reserved", std::slice::from_ref(&text)).pop() else { continue };
+            let mut classes = table.iter().chain(&dialect.variables);
+            if run.kind.is_none() && !classes.any(|class| run.meets(class)) {
+                let names: BTreeSet<&str> =
+                    dialect.variables.iter().map(|class| class.name.as_str()).collect();
+                let names = names.into_iter().collect::<Vec<_>>().join(", ");
+                let message = format!("{} has no variables {text}", dialect.title);
+                let help =
+                    format!("name variables of this control, which begin with {names}, or leave it out");
+                self.fault(&format!("reserved:{text}"), message, help);
+            }
+            runs.push(run);
+        }
         if let Some(kind) = runs.iter().find_map(|run| run.kind.clone()) {
             let what = format!("'{kind}' says nothing of reserved variables");
             self.fault("reserved", what, "leave it out; under 'variables' it says what they are".into());

@@ -25,8 +25,11 @@ impl Overlay {
                 None => narrowed(&dialect.variables, &run),
                 Some(kind) => self.widened(dialect, &run, kind, text),
             };
-            if classes.is_empty() && run.kind.is_none() {
-                let what = format!("{} has no variables {text}", dialect.title);
+            if run.kind.is_none() && (classes.is_empty() || !run.ends_within(&dialect.variables)) {
+                let what = match classes.is_empty() {
+                    true => format!("{} has no variables {text}", dialect.title),
+                    false => format!("{} does not have all of the variables {text}", dialect.title),
+                };
                 self.fault(
                     &format!("variables:{text}"),
                     what,
@@ -97,6 +100,22 @@ impl Overlay {
         class.retained = Some(kind == "retained");
         class.origin.mark = Mark::Confirmed;
         vec![class]
+    }
+}
+
+impl VariableRun {
+    /// True where the run has a variable of the class.
+    pub(super) fn meets(&self, class: &VariableClass) -> bool {
+        class.name == self.name
+            && (class.class == "letter") == self.letter
+            && class.first <= self.last
+            && self.first <= class.last
+    }
+
+    /// True where the first and the last variable of the run are there.
+    fn ends_within(&self, classes: &[VariableClass]) -> bool {
+        let end = |number: u32| Self { first: number, last: number, ..self.clone() };
+        [self.first, self.last].into_iter().all(|at| classes.iter().any(|class| end(at).meets(class)))
     }
 }
 

@@ -11,6 +11,9 @@ use crate::canon::Func;
 /// Answers that leave a question open.
 const OPEN: [&str; 2] = ["unknown", "setting"];
 
+/// Limits of what a control may do without.
+const MAY_BE_NONE: [&str; 1] = ["brackets"];
+
 impl Overlay {
     /// Puts the answers that the profile states in place of the table's.
     pub(super) fn behaviours(&mut self, dialect: &mut Dialect) {
@@ -36,6 +39,11 @@ impl Overlay {
     pub(super) fn limits(&mut self, dialect: &mut Dialect) {
         for (name, most) in self.profile.limits.clone() {
             match dialect.limits.iter_mut().find(|row| row.name == name) {
+                Some(row) if most == 0 && row.max != Some(0) && !MAY_BE_NONE.contains(&name.as_str()) => {
+                    let message = format!("{name} = 0 leaves nothing that a program may have");
+                    let help = "write how many there may be, or remove the line".to_owned();
+                    self.fault(&format!("limits:{name}"), message, help);
+                }
                 Some(row) => {
                     row.max = Some(most);
                     row.origin.mark = Mark::Confirmed;
@@ -76,7 +84,11 @@ impl Overlay {
                     found += 1;
                 }
             });
-            if found == 0 && matters::meaning(&fact).is_none() && !is_without_row(&fact) {
+            if found == 0 && self.names_no_code(&fact) {
+                let code = fact.trim_start_matches("code:");
+                let help = format!("leave it out, or say under [[site]] what {code} does on this machine");
+                self.fault(&format!("confirm:{fact}"), format!("{} has no code {code}", dialect.title), help);
+            } else if found == 0 && matters::meaning(&fact).is_none() && !is_without_row(&fact) {
                 let mut names = Vec::new();
                 each_row(dialect, &mut |name, _| names.push(name.to_string()));
                 names.extend(matters::ALL.iter().map(|(name, _)| (*name).to_owned()));
@@ -87,6 +99,19 @@ impl Overlay {
                 self.fault(&format!("confirm:{fact}"), format!("no fact is named '{fact}'"), help);
             }
         }
+    }
+}
+
+impl Overlay {
+    /// True for a G code that no row of the control's table has, of no setting and no option. M codes may be of the
+    /// machine's builder.
+    fn names_no_code(&self, fact: &str) -> bool {
+        let Some(code) = fact.strip_prefix("code:").filter(|code| code.starts_with('G') && is_code(code))
+        else {
+            return false;
+        };
+        let table = registry::find(&self.profile.dialect).and_then(|entry| entry.dialect().ok());
+        table.is_some_and(|table| !table.codes.iter().any(|row| row.code.split(' ').next() == Some(code)))
     }
 }
 

@@ -27,6 +27,7 @@ mod partway;
 mod places;
 mod prepare;
 mod project;
+mod project_places;
 mod publish;
 mod refused_calls;
 mod selection;
@@ -55,6 +56,7 @@ pub use pairs::{Pairs, with_pairs};
 pub use partway::{Partway, partway};
 pub use places::{Spots, real_place, slashed};
 pub use project::{Allow, Checks, Library, Machine, Project, ProjectError};
+pub use project_places::ProjectPlaces;
 pub use publish::{
     Change, Held, Home, Kind, Made, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
     abandon, changes, check, is_pending, profiles_of, publish, write_file,

@@ -3,8 +3,10 @@
 
 use super::accepted::{Entry, seen_from};
 use super::places::slashed;
+use super::project_places::ProjectPlaces;
 use super::selection::Selection;
 use crate::dialect::registry;
+use crate::text::LineIndex;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -28,6 +30,9 @@ pub struct Project {
     /// The folder that the file lies in; all its paths count from here.
     #[serde(skip)]
     pub root: PathBuf,
+    /// Where its entries stand.
+    #[serde(skip)]
+    pub places: ProjectPlaces,
 }
 
 /// A machine.
@@ -102,12 +107,12 @@ pub struct Allow {
 
 /// Why a project file could not be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{path}{place}: {message}", place = .line.map(|n| format!(":{n}")).unwrap_or_default())]
+#[error("{path}{place}: {message}", place = .place.map(|(line, column)| format!(":{line}:{column}")).unwrap_or_default())]
 pub struct ProjectError {
     /// The file.
     pub path: PathBuf,
-    /// The line, where known.
-    pub line: Option<usize>,
+    /// The line and the column, where known.
+    pub place: Option<(u32, u32)>,
     /// What is wrong.
     pub message: String,
 }
@@ -122,35 +127,79 @@ impl Project {
         let Some(path) = folder.ancestors().map(|f| f.join(Self::NAME)).find(|path| path.is_file()) else {
             return Ok(None);
         };
-        let fault = |line, message: String| ProjectError { path: path.clone(), line, message };
+        let fault = |place, message: String| ProjectError { path: path.clone(), place, message };
         let text = std::fs::read_to_string(&path).map_err(|error| fault(None, error.to_string()))?;
-        let line = |at: usize| 1 + text.as_bytes().iter().take(at).filter(|byte| **byte == b'\n').count();
-        let mut project: Self = toml::from_str(&text)
-            .map_err(|error| fault(error.span().map(|span| line(span.start)), error.message().to_string()))?;
+        let lines = LineIndex::new(text.as_bytes());
+        let place = |at: usize| lines.place(u32::try_from(at).unwrap_or(u32::MAX));
+        let mut project: Self = toml::from_str(&text).map_err(|error| {
+            fault(error.span().map(|span| place(span.start)), error.message().to_string())
+        })?;
         if let Some((at, why)) = project.accepted.iter().find_map(Entry::fault) {
-            return Err(fault(Some(line(at)), format!("[[accepted]]: {why}")));
+            return Err(fault(Some(place(at)), format!("[[accepted]]: {why}")));
         }
-        for (name, library) in &project.libraries {
-            if let Err(why) = Selection::of(library) {
-                return Err(fault(None, format!("library '{name}': {why}")));
-            }
-            for machine in std::iter::once(&library.machine).chain(library.targets.keys()) {
-                if !project.machines.contains_key(machine) {
-                    let message = format!(
-                        "library '{name}' names machine '{machine}', but [machines] does not have it"
-                    );
-                    return Err(fault(None, message));
-                }
-            }
-        }
-        if let Some(name) = project.checks.round_trip.iter().find(|name| project.machine_of(name).is_none()) {
-            let message = format!(
-                "[checks] asks for a round trip to '{name}', which is no machine of [machines] and no dialect"
-            );
-            return Err(fault(None, message));
+        project.places = ProjectPlaces::read(&text);
+        if let Some((names, message)) = project.wrong() {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            return Err(fault(project.places.at(&names), message));
         }
         project.root = path.parent().map(Path::to_owned).unwrap_or_default();
         Ok(Some(project))
+    }
+
+    /// What names something that is not there, with the names of the keys that lead to it.
+    fn wrong(&self) -> Option<(Vec<String>, String)> {
+        let to = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let odd = |(name, machine): &(&String, &Machine)| {
+            registry::find(&machine.dialect).is_none().then(|| {
+                let known: Vec<&str> = registry::all().iter().map(|entry| entry.name).collect();
+                let message =
+                    format!("no dialect is named '{}': use one of {}", machine.dialect, known.join(", "));
+                (to(&["machines", name, "dialect"]), message)
+            })
+        };
+        if let Some(wrong) = self.machines.iter().find_map(|machine| odd(&machine)) {
+            return Some(wrong);
+        }
+        for (name, library) in &self.libraries {
+            if let Err((key, why)) = Selection::of(library) {
+                return Some((to(&["libraries", name, key]), format!("library '{name}': {why}")));
+            }
+            let own = (to(&["libraries", name, "machine"]), &library.machine);
+            let targets = library.targets.keys().map(|key| (to(&["libraries", name, "targets", key]), key));
+            for (names, machine) in std::iter::once(own).chain(targets) {
+                if !self.machines.contains_key(machine) {
+                    let message = format!(
+                        "library '{name}' names machine '{machine}', but [machines] does not have it"
+                    );
+                    return Some((names, message));
+                }
+            }
+        }
+        let mut trips = self.checks.round_trip.iter().enumerate();
+        let (at, name) = trips.find(|(_, name)| self.machine_of(name).is_none())?;
+        let message = format!(
+            "[checks] asks for a round trip to '{name}', which is no machine of [machines] and no dialect"
+        );
+        Some((to(&["checks", "round_trip", &at.to_string()]), message))
+    }
+
+    /// A path of the project file that a machine's profile or a library has, and that is not there: with its place.
+    pub fn missing(&self, library: &str) -> Option<String> {
+        let own = self.libraries.get(library)?;
+        let is_there = |path: &Path| self.root.join(path).exists();
+        if !is_there(&own.path) {
+            let place = self.places.named(&["libraries", library, "path"]);
+            return Some(format!("{place}: there is no such file or folder: {}", own.path.display()));
+        }
+        if let Some((at, path)) = own.shared.iter().enumerate().find(|(_, path)| !is_there(path)) {
+            let place = self.places.named(&["libraries", library, "shared", &at.to_string()]);
+            return Some(format!("{place}: there is no such file or folder: {}", path.display()));
+        }
+        std::iter::once(&own.machine).chain(own.targets.keys()).find_map(|name| {
+            let profile = self.machines.get(name)?.profile.as_ref().filter(|path| !is_there(path))?;
+            let place = self.places.named(&["machines", name, "profile"]);
+            Some(format!("{place}: there is no profile {}", profile.display()))
+        })
     }
 
     /// The libraries that hold all of these files, by name.

@@ -22,10 +22,13 @@ impl Selection {
     /// What the library says.
     ///
     /// # Errors
-    /// What is wrong with a pattern of it.
-    pub(super) fn of(library: &Library) -> Result<Self, String> {
+    /// The key with a pattern that is wrong, and what is wrong with it.
+    pub(super) fn of(library: &Library) -> Result<Self, (&'static str, String)> {
         if library.only.as_ref().is_some_and(Vec::is_empty) {
-            return Err("'only' names no file: leave it out to take all files of the folder".into());
+            return Err((
+                "only",
+                "'only' names no file: leave it out to take all files of the folder".into(),
+            ));
         }
         let only = library.only.as_ref().map(|only| matchers("only", only)).transpose()?;
         Ok(Self { only, except: matchers("except", &library.except)? })
@@ -45,11 +48,11 @@ pub(super) fn unknown<'l>(library: &'l Library, names: &BTreeSet<&str>) -> Optio
     only.chain(except).find(|(_, name)| !name.contains(SIGNS) && !names.contains(name))
 }
 
-fn matchers(key: &str, patterns: &[String]) -> Result<Vec<GlobMatcher>, String> {
+fn matchers(key: &'static str, patterns: &[String]) -> Result<Vec<GlobMatcher>, (&'static str, String)> {
     let matcher = |pattern: &String| {
         let glob = GlobBuilder::new(pattern).literal_separator(true).build();
         glob.map(|glob| glob.compile_matcher())
-            .map_err(|error| format!("'{key}': '{pattern}' is no pattern: {error}"))
+            .map_err(|error| (key, format!("'{key}': '{pattern}' is no pattern: {error}")))
     };
     patterns.iter().map(matcher).collect()
 }

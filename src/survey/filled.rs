@@ -1,7 +1,8 @@
 //! A machine profile with what a survey asks of it, as lines to fill in.
 //!
 //! What stands in the profile stays, byte for byte. Each question is a comment that begins with `#?`: who answers it takes
-//! these signs away. The next survey takes the questions out that are left, and puts its own in.
+//! these signs away. What is told of questions begins with `#:`, as nothing there is filled in. The next survey takes out
+//! what is left of both, and puts its own in.
 
 use super::{AskedSetting, AskedStart, Survey};
 use crate::dialect::{Control, Machine, Profile, Settled, Side};
@@ -11,6 +12,9 @@ use std::fmt::Write;
 
 /// What a line begins with that is a question.
 const ASKS: &str = "#?";
+
+/// What a line begins with that tells of questions.
+const TELLS: &str = "#:";
 
 /// Letters of a question's text.
 const LONGEST: usize = 300;
@@ -81,9 +85,14 @@ fn read(text: &str) -> Result<Profile, Unfit> {
     })
 }
 
+/// True for a line of a survey.
+fn is_asked(line: &str) -> bool {
+    [ASKS, TELLS].iter().any(|sign| line.trim_start().starts_with(sign))
+}
+
 /// The text without the questions of an earlier survey.
 fn without_questions(text: &str) -> String {
-    text.split_inclusive('\n').filter(|line| !line.trim_start().starts_with(ASKS)).collect()
+    text.split_inclusive('\n').filter(|line| !is_asked(line)).collect()
 }
 
 /// What numbers without a decimal point count, as a line, if programs rest on it.
@@ -202,15 +211,15 @@ fn after_dialect(text: &str, profile: &Profile) -> usize {
 fn start(asked: &[AskedStart], said: Option<&str>) -> String {
     let mut lines = String::new();
     let _ =
-        writeln!(lines, "{ASKS} # What is in force after a reset, as the machine's page of codes shows it.");
+        writeln!(lines, "{TELLS} What is in force after a reset, as the machine's page of codes shows it.");
     for AskedStart { what, codes, programs, places, .. } in asked {
         let programs = if *programs == 1 { "1 program".to_owned() } else { format!("{programs} programs") };
         let (codes, places) = (codes.join(", "), plain(&places.join(", ")));
-        let _ = writeln!(lines, "{ASKS} # {what}: one of {codes} ({programs}: {places})");
+        let _ = writeln!(lines, "{TELLS} {what}: one of {codes} ({programs}: {places})");
     }
     let codes = asked.iter().map(|asked| asked.codes.join("|")).collect::<Vec<_>>().join(" ");
     let _ = match said {
-        Some(_) => writeln!(lines, "{ASKS} # Write these into codes too, one of each: {codes}"),
+        Some(_) => writeln!(lines, "{TELLS} Write these into codes too, one of each: {codes}"),
         None => writeln!(lines, "{ASKS} codes = \"{codes}\""),
     };
     lines
@@ -274,13 +283,13 @@ fn codes(text: &mut String, survey: &Survey<'_>) {
     }
     let _ = writeln!(
         text,
-        "{ASKS} What the machine's builder made of these codes: docs/builders-codes.md. Give each a name (and the"
+        "{TELLS} What the machine's builder made of these codes: docs/builders-codes.md. Give each a name (and the"
     );
     let _ = writeln!(
         text,
-        "{ASKS} target's code the same one), or target = \"M88\", or do = \"omit\", \"stop\" or \"alarm\"; do = \"same\" only where"
+        "{TELLS} target's code the same one), or target = \"M88\", or do = \"omit\", \"stop\" or \"alarm\"; do = \"same\" only where"
     );
-    let _ = writeln!(text, "{ASKS} the target's own builder gave that very code the same meaning.");
+    let _ = writeln!(text, "{TELLS} the target's own builder gave that very code the same meaning.");
     for code in &survey.codes {
         let programs =
             if code.programs == 1 { String::new() } else { format!("{} programs: ", code.programs) };
@@ -316,7 +325,7 @@ mod tests {
 
     /// What stands in the text without its questions.
     fn said(text: &str) -> Vec<&str> {
-        text.lines().filter(|line| !line.starts_with(ASKS) && !line.is_empty()).collect()
+        text.lines().filter(|line| !is_asked(line) && !line.is_empty()).collect()
     }
 
     #[test]

@@ -13,6 +13,7 @@ mod names;
 mod nesting;
 mod random;
 mod running;
+mod said;
 mod settled;
 mod skips;
 mod started;

@@ -414,7 +414,7 @@ fn a_malformed_entry_is_an_error_with_its_place() {
         shop.write("macroglot.toml", text.replacen(from, to, 1).as_bytes());
         let place = match key {
             "[[accepted]]" => "macroglot.toml:".to_owned(),
-            key => format!("macroglot.toml:{}: ", line_of(key)),
+            key => format!("macroglot.toml:{}:", line_of(key)),
         };
         let words: Vec<&str> = words.iter().copied().chain([place.as_str()]).collect();
         for command in ["convert", "check", "accept --all --who Bob"] {

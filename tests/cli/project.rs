@@ -45,17 +45,43 @@ fn a_wrong_project_file_is_named_with_its_line() {
     let shop = Shop::with(&[("programs/a.nc", CLEAN)]);
     shop.fails("convert", &["macroglot.toml"]);
     for (text, words) in [
-        (PROJECT.replace("[machines.new]", "[machines.new"), &["macroglot.toml:3"][..]),
-        (PROJECT.replace("path =", "folder ="), &["macroglot.toml:6", "folder"]),
-        (PROJECT.replace("machine = \"old\"", "machine = \"lost\""), &["shop", "lost"]),
-        (PROJECT.replace("\"programs\"", "\"nowhere\""), &["nowhere"]),
-        (PROJECT.replace("\"haas\"", "\"siemens\""), &["siemens"]),
+        (PROJECT.replace("[machines.new]", "[machines.new"), &["macroglot.toml:3:14: "][..]),
+        (PROJECT.replace("path =", "folder ="), &["macroglot.toml:6:1: ", "folder"]),
+        (
+            PROJECT.replace("machine = \"old\"", "machine = \"lost\""),
+            &["macroglot.toml:7:1: ", "shop", "lost"],
+        ),
+        (PROJECT.replace("\"programs\"", "\"nowhere\""), &["macroglot.toml:6:1: ", "nowhere"]),
+        (PROJECT.replace("\"haas\"", "\"siemens\""), &["macroglot.toml:4:1: ", "siemens"]),
+        (PROJECT.replace("new = ", "other = "), &["macroglot.toml:9:1: ", "'other'"]),
+        (PROJECT.replace("path =", "except = [\"[\"]\npath ="), &["macroglot.toml:6:1: ", "no pattern"]),
+        (
+            PROJECT.replace("path =", "shared = [\"programs\", \"lost\"]\npath ="),
+            &["macroglot.toml:6:23: ", "lost"],
+        ),
+        (
+            format!("{PROJECT}[checks]\nround_trip = [\"haas\", \"odd\"]\n"),
+            &["macroglot.toml:11:23: ", "'odd'"],
+        ),
         (PROJECT.replace("\"out\"", "\"programs\""), &["overwritten"]),
-        (PROJECT.replace("\"haas\"", "\"haas\"\nprofile = \"m.toml\""), &["m.toml"]),
+        (PROJECT.replace("\"haas\"", "\"haas\"\nprofile = \"m.toml\""), &["macroglot.toml:5:1: ", "m.toml"]),
         ("[machines]\n".into(), &["no library"]),
     ] {
         shop.write("macroglot.toml", text.as_bytes());
         shop.fails("convert", words);
+    }
+}
+
+#[test]
+fn a_code_that_is_none_is_named_with_its_line_in_the_project_file() {
+    let shop = Shop::with(&[("programs/a.nc", CLEAN)]);
+    for (more, words) in [
+        ("[checks]\nignore = [\"MG0\", \"MG99\"]\n", &["macroglot.toml:11:18: ", "'MG99'"][..]),
+        ("[[checks.allow]]\ncode = \"X\"\npath = \"*\"\nreason = \"r\"\n", &["macroglot.toml:10:1: ", "'X'"]),
+        ("[checks]\nround_trip = [\"odd\"]\n", &["macroglot.toml:11:15: ", "'odd'"]),
+    ] {
+        shop.write("macroglot.toml", format!("{PROJECT}{more}").as_bytes());
+        shop.fails("check", words);
     }
 }
 

@@ -128,7 +128,7 @@ fn what_programs_begin_in_is_asked_once() {
     let line = "survey lib --from fanuc --to haas --write m.toml";
     assert_eq!(shop.run(line).code, 0);
     let asked = shop.read("m.toml");
-    assert!(asked.contains("[start]\n#? # What is in force after a reset"), "{asked}");
+    assert!(asked.contains("[start]\n#: What is in force after a reset"), "{asked}");
     let choice = "#? codes = \"G94|G95 G54|G55|G56|G57|G58|G59\"\n";
     assert!(asked.contains(choice), "{asked}");
     // As it stands it is no answer.
@@ -140,7 +140,7 @@ fn what_programs_begin_in_is_asked_once() {
     let again = shop.read("m.toml");
     assert!(again.contains("\ncodes = \"G94\"\n"), "{again}");
     assert!(
-        again.contains("#? # Write these into codes too, one of each: G54|G55|G56|G57|G58|G59\n"),
+        again.contains("#: Write these into codes too, one of each: G54|G55|G56|G57|G58|G59\n"),
         "{again}"
     );
     shop.write("m.toml", again.replace("\"G94\"", "\"G94 G54\"").as_bytes());

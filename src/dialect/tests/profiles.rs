@@ -46,6 +46,41 @@ fn profiles_say_what_is_wrong_and_where() {
     assert!(Control::new(fanuc, other).is_err());
 }
 
+/// What no machine can be is a slip that would be taken in silence.
+#[test]
+fn profiles_that_say_nonsense_are_wrong() {
+    let fadal = |line: &str, expected: &str| wrong(&format!("dialect = \"fadal\"\n{line}"), expected);
+    fadal(
+        "confirm = [\"code:G999\"]",
+        "p.toml:2:12: MG0203: Fadal has no code G999 (leave it out, or say under",
+    );
+    fadal(
+        "reserved = [\"V1\", \"#100\"]",
+        "p.toml:2:19: MG0203: Fadal has no variables #100 (name variables",
+    );
+    fadal("reserved = [\"V200-V300\"]", "p.toml:2:13: MG0203: Fadal has no variables V200-V300");
+    fadal(
+        "variables = [\"V1-V500\"]",
+        "p.toml:2:14: MG0203: Fadal does not have all of the variables V1-V500",
+    );
+    fadal("axes = []", "p.toml:2:8: MG0203: 'axes = []' says that the machine has none");
+    fadal("variables = []", "'variables = []' says that the machine has none");
+    fadal("offsets = 0", "p.toml:2:11: MG0203: 'offsets = 0' says that the machine has none");
+    fadal("[limits]\ncall.all = 0", "p.toml:3:6: MG0203: call.all = 0 leaves nothing");
+    for fine in [
+        "variables = [\"V1-V99\"]\nreserved = [\"V90-V100\", \"R9\"]",
+        "confirm = [\"code:G28\", \"code:M77\"]",
+        "work_offsets = 0",
+        "[limits]\nbrackets = 0",
+    ] {
+        let text = format!("dialect = \"fadal\"\n{fine}");
+        assert!(Control::from_profile(&text).is_ok(), "{fine}");
+    }
+    // An option that was not bought, and a code of another setting.
+    let fanuc = "dialect = \"fanuc\"\noptions = []\nconfirm = [\"code:G54.1\", \"code:G57\"]";
+    assert!(Control::from_profile(fanuc).is_ok());
+}
+
 #[test]
 fn a_setting_may_have_another_number_on_a_newer_control() {
     let lathe = "dialect = \"haas\"\nmachine = \"lathe\"\n[settings]\n";

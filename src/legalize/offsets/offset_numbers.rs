@@ -2,7 +2,8 @@
 //!
 //! Law: a word that names a tool offset names one that the target has. Counter-example: `G43 H120 Z5.` for a control with 99
 //! offsets. How many there are is the table's row, or `offsets` of the machine profile where the machine has less. Side condition: a
-//! variable holds numbers that its program gives it; of what a caller or an operator gives, nothing is known here.
+//! variable holds numbers that its program gives it; what calls give is the matter of `argument_offsets`, and of what an
+//! operator gives nothing is known.
 
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
@@ -13,7 +14,7 @@ use crate::legalize::Context;
 use crate::legalize::features::Features;
 
 /// The words that name an offset.
-const NAMES: [Role; 2] = [Role::LengthOffset, Role::RadiusOffset];
+pub(super) const NAMES: [Role; 2] = [Role::LengthOffset, Role::RadiusOffset];
 
 /// True if the library names offsets, and the target's table says how many there are.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -58,7 +59,7 @@ fn numbers(value: &Expr, assigned: &Assigned<'_>, (id, at): (BlockId, usize)) ->
 }
 
 /// The number of the last tool offset, where the maker or the profile says it.
-fn last(control: &Control) -> Option<u32> {
+pub(super) fn last(control: &Control) -> Option<u32> {
     let stated = control.profile().offsets.is_some();
     let rows = control.dialect().system.iter().filter(|row| row.state.is_tool_offset());
     let rows = rows.filter(|row| stated || row.origin.is_confirmed());

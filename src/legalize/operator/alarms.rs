@@ -17,13 +17,38 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     };
     let (here, there) = (most(context.source), most(context.target));
     for (index, program) in module.programs.iter().enumerate() {
+        let mut past = Vec::new();
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-            if let StmtKind::Alarm { number, .. } = &stmt.kind {
-                check(number, (here, there), index, stmt.site.span, context);
-            }
+            let StmtKind::Alarm { number, .. } = &stmt.kind else { continue };
+            check(number, (here, there), index, stmt.site.span, context);
+            past.extend(number.constant().filter(|n| *n > there).map(|n| (n, stmt.site.span)));
         }
+        too_large(past, there, index, context);
     }
 }
+
+/// Reports the numbers of a program that the target is not said to take, all at once.
+fn too_large(past: Vec<(f64, Span)>, there: f64, index: usize, context: &mut Context<'_>) {
+    let Some((_, span)) = past.first().copied() else { return };
+    let mut numbers: Vec<f64> = past.into_iter().map(|(number, _)| number).collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers.dedup();
+    let named: Vec<String> = numbers.iter().take(NAMED).map(f64::to_string).collect();
+    let more = match numbers.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let (title, alarm) =
+        (&context.target.dialect().title, if numbers.len() == 1 { "another alarm" } else { "other alarms" });
+    let what = format!(
+        "{title} is said to take alarm numbers up to {there}: {}{more} may show as {alarm}",
+        named.join(", ")
+    );
+    context.add(index, Diagnostic::new(Code::Conditional, span, what));
+}
+
+/// So many numbers are named; of the others it is said how many there are.
+const NAMED: usize = 5;
 
 fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, context: &mut Context<'_>) {
     match number.constant() {
@@ -34,13 +59,6 @@ fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, con
         Some(n) => {
             if n > here {
                 context.rests_on_source(index, span, Question::AlarmMax);
-            }
-            if n > there {
-                let title = &context.target.dialect().title;
-                let what = format!(
-                    "{title} is said to take alarm numbers up to {there}: {n} may show as another alarm"
-                );
-                context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
             }
         }
         None if there < here => {

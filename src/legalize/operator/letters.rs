@@ -1,5 +1,7 @@
 //! Letters of messages, outputs and comments that the target is not known to show.
 //!
+//! Signs that the target's messages cannot have go: between two letters they leave nothing, elsewhere a blank.
+//!
 //! Law: a letter outside ASCII becomes what looks like it, small letters become capitals where the target may lack them,
 //! and brackets inside a message become square ones: the operator reads the same. Side condition: something looks like
 //! it; else `?` stands in its place, which in a message is for review.
@@ -19,7 +21,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         (Place::Comment { small: letters != "upper" }, Place::Shown { small: letters == "ascii" });
     let output = Place::Output { small: letters != "upper" };
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut writer = Writer { context, index, span: program.site.span };
+        let lacks = context.target.text().message_lacks.clone();
+        let mut writer = Writer { context, index, span: program.site.span, lacks };
         writer.comments(&mut program.site.comments, comment);
         for block in &mut program.blocks {
             for stmt in &mut block.stmts {
@@ -68,10 +71,35 @@ enum Place {
     Printed,
 }
 
+impl Place {
+    /// True for what is shown by a statement of its own.
+    fn is_message(self) -> bool {
+        matches!(self, Self::Shown { .. } | Self::Printed)
+    }
+}
+
+/// A text without these signs: between two letters they leave nothing, elsewhere a blank.
+fn without(text: &str, lacks: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let (mut before, mut all) = (' ', text.chars().peekable());
+    while let Some(c) = all.next() {
+        let inside = before.is_alphabetic() && all.peek().is_some_and(|next| next.is_alphabetic());
+        match lacks.contains(c) {
+            true if inside => {}
+            true => out.push(' '),
+            false => out.push(c),
+        }
+        before = c;
+    }
+    out
+}
+
 struct Writer<'w, 'c> {
     context: &'w mut Context<'c>,
     index: usize,
     span: Span,
+    /// Signs that the target's messages cannot have.
+    lacks: String,
 }
 
 impl Writer<'_, '_> {
@@ -88,7 +116,10 @@ impl Writer<'_, '_> {
 
     /// The text as the target can show it, told where letters were replaced; none where it stays as it is.
     fn written(&mut self, text: &str, place: Place) -> Option<String> {
-        let written = Written::of(text, place);
+        let lacks = if place.is_message() { self.lacks.as_str() } else { "" };
+        let written = Written::of(&without(text, lacks), place);
+        let written =
+            Written { replaced: written.replaced || text.contains(|c| lacks.contains(c)), ..written };
         if written.text == *text {
             return None;
         }
@@ -186,6 +217,8 @@ mod tests {
         let output = Place::Output { small: false };
         assert_eq!(of("Ü日a", output), ("UE日A".into(), true, false));
         assert_eq!(of("a", output), ("A".into(), true, false));
+        assert_eq!(without("SAY \"HI\", DON'T", "\"'"), "SAY  HI , DONT");
+        assert_eq!(without("SAY \"HI\"", ""), "SAY \"HI\"");
         // U with a dots' sign of its own after it.
         assert_eq!(of("TU\u{308}R", shown), ("TUR".into(), true, false));
     }

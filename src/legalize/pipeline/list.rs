@@ -18,7 +18,7 @@ use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{joined, mixed_places, start};
-use crate::legalize::offsets::{offset_numbers, offset_rows, position_length, tool_word};
+use crate::legalize::offsets::{argument_offsets, offset_numbers, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, dates, modal_reads, most_values, output_codes, output_states,
@@ -208,6 +208,13 @@ const CALLS: &[Pass] = &[
         .when(|c, _| c.has(Feature::Modal))
         .adds_programs()
         .needs(&["outline", "repeats", "modal-off"]),
+    Pass::reports(
+        "argument-offsets",
+        "refuses calls that give tool offsets which the target does not have",
+        argument_offsets::run,
+    )
+    .when(|c, context| c.has(Feature::Call) && offset_numbers::concerns(c, context))
+    .needs(&["modal-calls"]),
     // The calls that modal calls become must look at the register too.
     Pass::rewrites(
         "return-to",

@@ -18,6 +18,11 @@ pub fn skips_same_tool(control: &Control) -> bool {
     control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
 }
 
+/// True if it is settled what the word of the tool that is in the spindle does.
+pub fn is_told_of_same_tool(control: &Control) -> bool {
+    control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.origin.is_settled())
+}
+
 /// Leaves the lengths that a program returns with.
 pub fn shown_by_moves(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     let is_length = |act: &Act<'_>| matches!(*act.what, EventKind::ToolLength { .. });

@@ -23,6 +23,7 @@ mod texts;
 mod tolerance;
 mod unseen;
 mod variables;
+mod waits;
 
 pub use all::{Apart, differences};
 #[cfg(test)]

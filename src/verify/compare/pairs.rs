@@ -6,7 +6,7 @@ use super::differ::{ANOTHER_FEED, differ};
 use super::exit_state::left_differs;
 use super::found::{Comparison, Difference};
 use super::kinds::is_cut;
-use super::lengths::{brought, shown_by_moves, skips_same_tool};
+use super::lengths::{brought, is_told_of_same_tool, shown_by_moves, skips_same_tool};
 use super::letters;
 use super::loose::{Found, Order, farthest};
 use super::observe::{Act, observe};
@@ -22,6 +22,7 @@ use super::substitutes::{
 use super::tolerance::Tolerance;
 use super::unseen::{before_alarm, told_at};
 use super::variables::variables_differ;
+use super::waits::together;
 use crate::canon::Op;
 use crate::control::Run;
 use crate::control::trace::{EventKind, Position, Told};
@@ -75,7 +76,7 @@ pub(super) fn acts<'r>(
         (ours, theirs) = (as_messages(ours, source.0.control), as_messages(theirs, target.0.control));
     }
     if target.0.control.profile().outputs.is_some() {
-        (ours, theirs) = (without_outputs(ours), without_outputs(theirs));
+        (ours, theirs) = without_outputs(ours, theirs);
     }
     if roughing::differs(source.0.control, target.0.control) {
         (ours, theirs) = (roughing::without_passes(ours), roughing::without_passes(theirs));
@@ -83,7 +84,7 @@ pub(super) fn acts<'r>(
     if brought(source.0.control, target.0.control) {
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
-    [joined(ours, is_cut(source.1)), joined(theirs, is_cut(target.1))]
+    [joined(together(ours), is_cut(source.1)), joined(together(theirs), is_cut(target.1))]
 }
 
 /// Two runs side by side.
@@ -290,7 +291,9 @@ impl<'p, 'r> Pairs<'p, 'r> {
             && skips_same_tool(self.target.control)
         {
             let text = format!("tool {tool} is in the spindle: the target does not change to it again");
-            self.found.substituted.insert(text);
+            // Who has said so of the machine is not asked by each program.
+            let told = is_told_of_same_tool(self.target.control);
+            self.found.substituted.extend((!told).then_some(text));
             return true;
         }
         if side == 1 {

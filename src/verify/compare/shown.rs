@@ -38,12 +38,23 @@ pub fn as_messages<'r>(acts: Vec<Act<'r>>, control: &Control) -> Vec<Act<'r>> {
         match shown {
             Some((at, what)) => {
                 out.remove(at);
-                out.push(Act { what: What::other(what), ..act });
+                let room = room(&what, control);
+                out.push(Act { what: What::other(what), room, ..act });
             }
             None => out.push(act),
         }
     }
     out
+}
+
+/// How many characters more the control would have shown of what is a message here.
+fn room(what: &EventKind, control: &Control) -> Option<usize> {
+    let (limit, text) = match what {
+        EventKind::Message { text } => ("message", text),
+        EventKind::Alarm(stop) => ("message.alarm", &stop.text),
+        _ => return None,
+    };
+    Some((control.limit(limit)? as usize).saturating_sub(text.chars().count()))
 }
 
 /// True for a spindle or coolant that stops.
@@ -68,8 +79,22 @@ fn message(text: &str, next: &EventKind) -> Option<EventKind> {
     }
 }
 
-/// Without the output that the target's profile says to leave out. What stands before a question is its text.
-pub fn without_outputs(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+/// Without the output that the target's profile says to leave out: a text before a stop is such, where the target stops
+/// without one.
+pub fn without_outputs<'r>(mut ours: Vec<Act<'r>>, theirs: Vec<Act<'r>>) -> (Vec<Act<'r>>, Vec<Act<'r>>) {
+    let stops = |act: &Act<'_>| matches!(*act.what, EventKind::Stop | EventKind::Message { .. });
+    let bare: Vec<bool> =
+        theirs.iter().filter(|act| stops(act)).map(|act| *act.what == EventKind::Stop).collect();
+    for (act, bare) in ours.iter_mut().filter(|act| stops(act)).zip(bare) {
+        if bare && act.event.what == EventKind::Stop {
+            act.what = What::Own(&act.event.what);
+        }
+    }
+    (outputs_out(ours), outputs_out(theirs))
+}
+
+/// What stands before a question is its text, and no output.
+fn outputs_out(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     let asks = |act: Option<&Act<'_>>| act.is_some_and(|act| matches!(*act.what, EventKind::Asked { .. }));
     let stays: Vec<bool> = acts
         .iter()

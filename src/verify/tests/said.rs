@@ -1,0 +1,83 @@
+//! What machines with a profile of their own do in another way, and what is the same all the same.
+
+use super::*;
+
+/// How a pair of programs comes out between two machines, and why it is open.
+fn judged(profiles: [&str; 2], source: &str, target: &str) -> (Outcome, String) {
+    let controls = profiles.map(|text| Control::from_profile(text).unwrap());
+    let texts = [source, target];
+    let parsed: [_; 2] =
+        std::array::from_fn(|at| parse_file(texts[at].as_bytes(), controls[at].entry().parse));
+    let files: [_; 2] = std::array::from_fn(|at| [LoadedFile { name: "a.nc", parsed: &parsed[at] }]);
+    let side = |at: usize| Side::new(&controls[at], controls[at].entry().execute.unwrap(), &files[at]);
+    let (source, target) = (side(0), side(1));
+    let job = Job {
+        source: &source,
+        target: &target,
+        names: &SymbolMap::default(),
+        assumptions: &Assumptions::new(),
+        effort: Effort::default(),
+        spent: &Spent::default(),
+    };
+    let found = verify(&job, &[]).programs.remove(0);
+    let reasons = found.reasons.iter().map(|reason| reason.text.clone()).collect::<Vec<_>>().join("; ");
+    (found.outcome, found.witness.map_or(reasons, |witness| witness.what))
+}
+
+const FANUC: &str = "dialect = \"fanuc\"\nunits = \"metric\"\n";
+const FADAL: &str = "dialect = \"fadal\"\nunits = \"metric\"\n";
+const CC100: &str = "dialect = \"cc100\"\nunits = \"metric\"\n";
+
+/// 66 seconds, which a Fadal takes in two waits.
+#[test]
+fn waits_in_a_row_are_one() {
+    let source = "O1\nG21G90G54G0X0.Y0.\nG4P66000\nX1.\nM30\n";
+    let target = |second: u32| {
+        format!("N1 O1\nN2 G21 G90 E1 G0 X0. Y0.\nN3 G4 P33000\nN4 G4 P{second}\nN5 X1.\nN6 M2\n")
+    };
+    let with = |second| judged([FANUC, FADAL], source, &target(second));
+    assert_ne!(with(33000).0, Outcome::Different, "{}", with(33000).1);
+    assert_eq!(with(32000), (Outcome::Different, "the wait differs".into()));
+}
+
+/// A Fadal shows 40 letters of a message: what it had no room for is missed by nobody, and what it had room for is.
+#[test]
+fn a_message_is_as_long_as_a_screen_line() {
+    let source = "O1\n#3006=1(TURN THE PART OVER AND CLAMP IT AGAIN WITH CARE)\nM30\n";
+    let with = |text: &str| {
+        let target = format!("N1 O1\nN2 #WAIT\nN3 #PRINT \"{text}\"\nN4 M0\nN5 M2\n");
+        judged([FANUC, FADAL], source, &target)
+    };
+    let whole = "TURN THE PART OVER AND CLAMP IT AGAIN WI";
+    assert_eq!(whole.len(), 40);
+    assert_ne!(with(whole).0, Outcome::Different, "{}", with(whole).1);
+    assert_eq!(with("TURN THE PART OVER"), (Outcome::Different, "the text differs".into()));
+}
+
+/// What a Fadal shows before a stop is output, where nothing waits for it to be read.
+#[test]
+fn output_before_a_stop_may_be_left_out() {
+    let source = "N1 O1\nN2 #PRINT \"READY\"\nN3 M0\nN4 G90 G0 X1.\nN5 M2\n";
+    let target = "N1 G90\nN2 M0\nN3 G0 X1\nN4 M30\n";
+    let omits = format!("{CC100}outputs = \"omit\"\n");
+    let found = judged([FADAL, &omits], source, target);
+    assert_ne!(found.0, Outcome::Different, "{}", found.1);
+    let (outcome, what) = judged([FADAL, CC100], source, target);
+    assert_eq!((outcome, what.as_str()), (Outcome::Different, "they do different things"));
+}
+
+/// Who has said what the word of the tool in the spindle does is not asked by each program.
+#[test]
+fn a_settled_tool_word_is_no_question() {
+    let source = "O1\nG21G90G54\nT1M6\nG0X0.Y0.\nG43H1Z5.\nM30\n";
+    let target = "N1 G90 G54\nN2 T01\nN3 G0 X0 Y0\nN4 Z5\nN5 M30\n";
+    let asked = |profile: &str| {
+        let (outcome, what) = judged([FANUC, profile], source, target);
+        assert_ne!(outcome, Outcome::Different, "{what}");
+        what.contains("does not change to it again")
+    };
+    let skips = format!("{CC100}[settings]\ntool_again = \"skipped\"\n");
+    assert!(!asked(&skips));
+    let open = format!("{CC100}[behaviours]\ntool.word.again = \"skipped\"\n");
+    assert!(!asked(&open));
+}
