@@ -46,7 +46,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let number = stmt.site.sequence.get();
                 let [first, last] =
                     ends.each_ref().map(|ends| number.is_some_and(|number| ends.contains(&number)));
-                let whole = Whole { head: first || cornered, tail: last || corner };
+                // A jump to the number would pass over what acts before the move.
+                let ends = last && !first && !out.is_empty();
+                let whole = Whole { head: first || cornered, tail: last || corner, ends };
                 cornered = corner;
                 match before {
                     Some(before) => {
@@ -75,6 +77,8 @@ fn named(program: &ir::Program, role: Role) -> Vec<u32> {
 struct Whole {
     head: bool,
     tail: bool,
+    /// True for the last block of a contour: what acts before its move is still in the contour, and the number goes with the move.
+    ends: bool,
 }
 
 /// True for a line whose end the next block says too: with a corner, or by its angle.
@@ -146,7 +150,7 @@ fn split(
         ..SourceInfo::default()
     };
     for (at, items) in early.into_iter().enumerate() {
-        let site = site(at == 0, &mut stmt);
+        let site = site(at == 0 && !whole.ends, &mut stmt);
         out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
     }
     let behind = late.into_iter().map(|items| (items, site(false, &mut stmt))).collect::<Vec<_>>();
