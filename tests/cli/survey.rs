@@ -232,7 +232,7 @@ fn the_code_system_and_what_is_in_force_are_answered_in_any_order() {
     told(format!("{kind}{}{begins}", settings("C")), &["gcode_system is \"C\"", system]);
     shop.write("s.toml", format!("{kind}{}{begins}", settings("B")).as_bytes());
     let run = shop.run("survey lib --machine s.toml --to haas");
-    assert!(run.code == 0 && !run.out.contains("[start]"), "{}{}", run.out, run.err);
+    assert!(run.code == 0 && !run.out.contains("take from the machine"), "{}{}", run.out, run.err);
 }
 
 /// The words of a builder's code are asked with it, and what the line says is an answer.
