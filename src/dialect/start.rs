@@ -1,7 +1,7 @@
 //! What is in force on a machine when a program begins, as its profile says.
 
 use super::profile::Units;
-use super::{CodeMeaning, Control, Machine};
+use super::{CODE_SYSTEM, CodeMeaning, Control, Machine, Plain};
 use crate::canon::{Group, Op, Role};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -12,6 +12,10 @@ use std::collections::BTreeMap;
 pub struct Start {
     /// The codes in force, as the machine shows them: `"G0 G17 G20 G54 G90 G94"`.
     pub codes: Option<String>,
+}
+
+fn setting_name() -> String {
+    format!("setting.{CODE_SYSTEM}")
 }
 
 /// A code that is in force when a program begins.
@@ -51,16 +55,7 @@ impl Control {
     /// # Errors
     /// A code that the control has not, or that is none of these; with what to do.
     pub(super) fn read_start(&mut self) -> Result<(), (String, String)> {
-        let text = self.profile.start.codes.clone().unwrap_or_default();
-        let mut found: Vec<StartMode> = Vec::new();
-        for word in text.split_whitespace() {
-            let mode = self.start_mode(word)?;
-            if let Some(other) = found.iter().find(|other| other.op.group() == mode.op.group()) {
-                let message = format!("'{word}' stands beside '{}', and one of them is in force", other.op);
-                return Err((message, "leave one of them out".into()));
-            }
-            found.push(mode);
-        }
+        let found = self.start_modes(self.start_text()).map_err(|fault| self.told_elsewhere(fault))?;
         let unit = found.iter().find(|mode| mode.op.group() == Group::Units);
         let unit = unit.map(|mode| if mode.op == Op::Inch { Units::Inch } else { Units::Metric });
         if let (Some(unit), Some(stated)) = (unit, self.profile.units)
@@ -71,6 +66,75 @@ impl Control {
         self.profile.units = self.profile.units.or(unit);
         self.start = found;
         Ok(())
+    }
+
+    fn start_text(&self) -> &str {
+        self.profile.start.codes.as_deref().unwrap_or_default()
+    }
+
+    /// The modes that a profile names, by the codes of this control.
+    fn start_modes(&self, text: &str) -> Result<Vec<StartMode>, (String, String)> {
+        let mut found: Vec<StartMode> = Vec::new();
+        for word in text.split_whitespace() {
+            let mode = self.start_mode(word)?;
+            if let Some(other) = found.iter().find(|other| other.op.group() == mode.op.group()) {
+                let message = format!("'{word}' stands beside '{}', and one of them is in force", other.op);
+                return Err((message, "leave one of them out".into()));
+            }
+            found.push(mode);
+        }
+        Ok(found)
+    }
+
+    /// What is wrong, where a lathe, or another G code system of it, has all the codes that the profile names: it leaves that
+    /// open, or says another one.
+    fn told_elsewhere(&self, (message, help): (String, String)) -> (String, String) {
+        let names = self.systems_that_have_it();
+        if names.is_empty() {
+            return (message, help);
+        }
+        let write =
+            format!("write {CODE_SYSTEM} = {} under [settings] if it has that one", names.join(" or "));
+        let stated = self.profile.settings.get(CODE_SYSTEM);
+        let own = self.setting(&setting_name()).unwrap_or_default();
+        match (self.machine(), stated) {
+            (Machine::Lathe, None) => (
+                format!("{message}: G code system {own} is taken, as the profile does not say {CODE_SYSTEM}"),
+                write,
+            ),
+            (Machine::Lathe, Some(stated)) => {
+                (format!("{message}: {CODE_SYSTEM} is \"{stated}\""), format!("{help}; or {write}"))
+            }
+            (Machine::Mill, stated) => {
+                let lathe = "write machine = \"lathe\" if it is one";
+                let system = if stated.is_some() { String::new() } else { format!(", and {write}") };
+                (
+                    format!("{message}: a mill is taken, as the profile does not say the machine"),
+                    format!("{lathe}{system}; or {help}"),
+                )
+            }
+        }
+    }
+
+    /// The G code systems of a lathe that have all the codes that the profile names, but for its own one; none where it says
+    /// that the machine is a mill.
+    fn systems_that_have_it(&self) -> Vec<String> {
+        let is_lathe = self.machine() == Machine::Lathe;
+        if !is_lathe && self.profile.machine.is_some() {
+            return Vec::new();
+        }
+        let name = setting_name();
+        let rows = self.entry.dialect().ok().map(|dialect| dialect.settings.iter());
+        let values = rows.into_iter().flatten().filter(|row| row.name == name).flat_map(|row| &row.values);
+        let others = values.filter(|value| !is_lathe || self.setting(&name) != Some(value.as_str()));
+        let has_it = |system: &&String| {
+            let mut profile = self.profile.clone();
+            profile.machine = Some(Machine::Lathe);
+            profile.settings.insert(CODE_SYSTEM.into(), Plain::Word((*system).clone()));
+            profile.start = Start::default();
+            Control::new(self.entry, profile).is_ok_and(|other| other.start_modes(self.start_text()).is_ok())
+        };
+        others.filter(has_it).map(|system| format!("\"{system}\"")).collect()
     }
 
     fn start_mode(&self, word: &str) -> Result<StartMode, (String, String)> {

@@ -64,6 +64,13 @@ pub fn is_of_another(control: &Control, code: f64) -> bool {
     })
 }
 
+/// A lathe's control by each of its other G code systems, where no profile says the system; what is said to be in force when
+/// programs begin is left out.
+pub fn by_other_systems(control: &Control) -> Vec<(String, Control)> {
+    let Some((system, row)) = control.open_code_system() else { return Vec::new() };
+    Systems::of(control, system, &row.values).others
+}
+
 /// The systems of a control.
 struct Systems<'c> {
     /// The one that is assumed.

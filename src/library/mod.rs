@@ -44,7 +44,7 @@ pub use accepted::{
     answered, asks_any, edited, edits, questions,
 };
 pub use callees::linked_files;
-pub use code_system::is_of_another;
+pub use code_system::{by_other_systems, is_of_another};
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert, outcome};
 pub use detect::{Detected, detect, likeness, looks_like};
 pub use folders::Folder;

@@ -27,8 +27,8 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
         now.into_iter().chain(later).collect::<Vec<Answer>>()
     };
     let codes = survey.codes.iter().take(CODES).map(|asked| -> Answer {
-        let code = asked.code.clone();
-        Box::new(move |profile| profile.site.push(site(&code)))
+        let (code, words) = (asked.code.clone(), asked.words.clone());
+        Box::new(move |profile| profile.site.push(site(&code, &words)))
     });
     // The unit has a question of its own.
     let begins = survey.start.iter().filter(|asked| asked.group != Group::Units);
@@ -65,14 +65,14 @@ fn begin(profile: &mut Profile, codes: &[String]) {
 }
 
 /// A code that means nothing to the target.
-fn site(code: &str) -> SiteCode {
+fn site(code: &str, words: &[char]) -> SiteCode {
     SiteCode {
         code: code.to_owned(),
         name: None,
         op: None,
         text: code.to_owned(),
         fixed: BTreeMap::new(),
-        words: BTreeMap::new(),
+        words: words.iter().map(|letter| (letter.to_string(), letter.to_string())).collect(),
         target: None,
         without: Some(Without::Omit),
         calls: None,

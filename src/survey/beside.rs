@@ -1,6 +1,6 @@
-//! What programmers wrote beside a code: the comment of its block, or of the block before.
+//! What programmers wrote beside a code: the comment of its block, or of the block before, and the words of its block.
 
-use crate::dialect::Control;
+use crate::dialect::{Control, Machine};
 use crate::library::Input;
 use crate::syntax::{Block, ItemKind, parse_file};
 use crate::text::Span;
@@ -9,22 +9,58 @@ use std::collections::BTreeMap;
 /// Letters of a comment that count.
 const LONGEST: usize = 60;
 
-/// The comments beside these places of a file, and the text of each place's block.
-pub(super) fn beside(input: &Input, control: &Control, places: &[Span]) -> Vec<(Option<String>, String)> {
+/// What stands beside a code.
+#[derive(Default)]
+pub(super) struct Beside {
+    /// The comment that is about it.
+    pub comment: Option<String>,
+    /// The text of its block.
+    pub block: String,
+    /// The letters that can only be its own words.
+    pub letters: Vec<char>,
+}
+
+/// What stands beside these places of a file.
+pub(super) fn beside(input: &Input, control: &Control, places: &[Span]) -> Vec<Beside> {
     let parsed = parse_file(&input.bytes, control.entry().parse);
     let look = |place: &Span| {
         let at = parsed.blocks.partition_point(|block| block.span.end <= place.start);
-        let Some(block) = parsed.blocks.get(at) else { return (None, String::new()) };
+        let Some(block) = parsed.blocks.get(at) else { return Beside::default() };
         let before = at.checked_sub(1).and_then(|at| parsed.blocks.get(at));
         // A comment with a block of its own is about what follows.
         let above = before.filter(|block| is_comment(block));
         let comment = comment(block, &input.bytes);
-        (
-            comment.or_else(|| above.and_then(|block| self::comment(block, &input.bytes))),
-            line(block, &input.bytes),
-        )
+        Beside {
+            comment: comment.or_else(|| above.and_then(|block| self::comment(block, &input.bytes))),
+            block: line(block, &input.bytes),
+            letters: letters(block, control),
+        }
     };
     places.iter().map(look).collect()
+}
+
+/// The letters of a block with one code, but for those that mean something beside any code: beside an M code that is an axis too.
+fn letters(block: &Block, control: &Control) -> Vec<char> {
+    let words = block.items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Word(word) if !word.comma => Some(word.letter),
+        _ => None,
+    });
+    let words: Vec<char> = words.collect();
+    let mut codes = words.iter().filter(|letter| "GM".contains(**letter));
+    let (Some(code), None) = (codes.next(), codes.next()) else { return Vec::new() };
+    let lathe = control.machine() == Machine::Lathe;
+    let turns = |letter: char| {
+        control.profile().axes.iter().flatten().any(|axis| format!("{axis:?}") == letter.to_string())
+    };
+    let is_axis = |letter: char| match letter {
+        'X' | 'Y' | 'Z' | 'U' | 'V' | 'W' => true,
+        'C' | 'H' => lathe || turns(letter),
+        letter => turns(letter),
+    };
+    if *code == 'M' && words.iter().any(|letter| is_axis(*letter)) {
+        return Vec::new();
+    }
+    words.into_iter().filter(|letter| !"GMNOSFT".contains(*letter)).collect()
 }
 
 fn is_comment(block: &Block) -> bool {

@@ -1,6 +1,6 @@
 //! Codes of which a machine profile must say what the builder made of them.
 
-use super::beside::{beside, most};
+use super::beside::{Beside, beside, most};
 use super::shape::{NAMED, Places};
 use crate::diag::Severity;
 use crate::dialect::Control;
@@ -24,6 +24,8 @@ pub struct AskedCode {
     pub comment: Option<(String, usize)>,
     /// The first block that has it.
     pub block: String,
+    /// The letters that stand with it in blocks of its own: its words, as far as one can see.
+    pub words: Vec<char>,
 }
 
 /// The codes that programs wait for; what frees most programs is first.
@@ -60,7 +62,7 @@ pub(super) fn asked(
     for (at, span) in found.values().flatten() {
         spans.entry(file(at)).or_default().push(*span);
     }
-    let mut texts: BTreeMap<(usize, u32), (Option<String>, String)> = BTreeMap::new();
+    let mut texts: BTreeMap<(usize, u32), Beside> = BTreeMap::new();
     for (file, spans) in &spans {
         let looked = beside(&inputs[*file], source, spans);
         texts.extend(spans.iter().map(|span| (*file, span.start)).zip(looked));
@@ -80,8 +82,12 @@ pub(super) fn asked(
         AskedCode {
             programs: all.iter().map(|(at, _)| at).collect::<BTreeSet<_>>().len(),
             frees: frees.get(&code).copied().unwrap_or_default(),
-            comment: most(all.iter().filter_map(|one| text(one)?.0.clone())),
-            block: all.first().and_then(text).map(|(_, block)| block.clone()).unwrap_or_default(),
+            comment: most(all.iter().filter_map(|one| text(one)?.comment.clone())),
+            block: all.first().and_then(text).map(|beside| beside.block.clone()).unwrap_or_default(),
+            words: {
+                let letters = all.iter().filter_map(text).flat_map(|beside| beside.letters.iter().copied());
+                letters.collect::<BTreeSet<_>>().into_iter().collect()
+            },
             places,
             code,
         }

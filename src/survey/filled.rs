@@ -4,17 +4,18 @@
 //! these signs away. What is told of questions begins with `#:`, as nothing there is filled in. The next survey takes out
 //! what is left of both, and puts its own in.
 
-use super::{AskedSetting, AskedStart, Survey};
+use super::start::lines as lines_of_start;
+use super::{AskedSetting, Survey};
 use crate::dialect::{Control, Machine, Profile, Settled, Side};
 use crate::report::{Fact, Questions};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What a line begins with that is a question.
-const ASKS: &str = "#?";
+pub(super) const ASKS: &str = "#?";
 
 /// What a line begins with that tells of questions.
-const TELLS: &str = "#:";
+pub(super) const TELLS: &str = "#:";
 
 /// Letters of a question's text.
 const LONGEST: usize = 300;
@@ -60,7 +61,7 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
         }
     }
     if side == Side::Source && !survey.start.is_empty() {
-        asked.insert("start", start(&survey.start, control.profile().start.codes.as_deref()));
+        asked.insert("start", lines_of_start(&survey.start, control.profile().start.codes.as_deref()));
     }
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;
@@ -161,7 +162,7 @@ fn about(fact: &Fact<'_>, control: &Control) -> String {
 }
 
 /// Text that stays on its line, and is a comment.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }
 
@@ -204,25 +205,6 @@ fn inserted(text: &str, section: &str, lines: &str) -> Result<String, Unfit> {
 fn after_dialect(text: &str, profile: &Profile) -> usize {
     let head = profile.place("dialect").map(|place| place.end).unwrap_or_default();
     text.get(head..).and_then(|rest| rest.find('\n')).map_or(text.len(), |end| head + end + 1)
-}
-
-/// What programs begin in without saying it, as one line to fill in with a line for each mode before it. What is `said` stays,
-/// and gets more codes.
-fn start(asked: &[AskedStart], said: Option<&str>) -> String {
-    let mut lines = String::new();
-    let _ =
-        writeln!(lines, "{TELLS} What is in force after a reset, as the machine's page of codes shows it.");
-    for AskedStart { what, codes, programs, places, .. } in asked {
-        let programs = if *programs == 1 { "1 program".to_owned() } else { format!("{programs} programs") };
-        let (codes, places) = (codes.join(", "), plain(&places.join(", ")));
-        let _ = writeln!(lines, "{TELLS} {what}: one of {codes} ({programs}: {places})");
-    }
-    let codes = asked.iter().map(|asked| asked.codes.join("|")).collect::<Vec<_>>().join(" ");
-    let _ = match said {
-        Some(_) => writeln!(lines, "{TELLS} Write these into codes too, one of each: {codes}"),
-        None => writeln!(lines, "{ASKS} codes = \"{codes}\""),
-    };
-    lines
 }
 
 /// Of a machine that is taken as a lathe: the line that says so, and its G code system with what that is, if it has several.
@@ -300,6 +282,15 @@ fn codes(text: &mut String, survey: &Survey<'_>) {
             said.chars().filter(|letter| !letter.is_control() && !"\"\\".contains(*letter)).collect();
         let _ = writeln!(text, "{ASKS} text = \"{said}\" # as in: {}", plain(&code.block));
         let _ = writeln!(text, "{ASKS} name = \"\"");
+        if !code.words.is_empty() {
+            let words =
+                code.words.iter().map(|letter| format!("{letter} = \"{letter}\"")).collect::<Vec<_>>();
+            let _ = writeln!(
+                text,
+                "{ASKS} words = {{ {} }} # its words: each with a name, or beside target with that code's letter",
+                words.join(", ")
+            );
+        }
     }
 }
 

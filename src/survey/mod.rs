@@ -92,7 +92,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let library = understood(inputs, source);
     let places = Places::new(inputs);
     let shape = Shape::of(inputs, &places, &library);
-    let start = start::asked(&places, source, &library.module);
+    let mut start = start::asked(&places, source, &library.module);
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),
@@ -104,6 +104,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         // What the codes of another system mean is asked by its name.
         let number = |code: &str| code.strip_prefix('G').and_then(|number| number.parse().ok());
         codes.retain(|asked| !number(&asked.code).is_some_and(|code| is_of_another(source, code)));
+        start = start::asked_by_others(&places, inputs, source);
     }
     let controls = [source, target.unwrap_or(source)];
     let settings = keys::asked(&places, controls, &conversion.programs);

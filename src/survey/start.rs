@@ -1,12 +1,15 @@
 //! What programs take from the machine when they begin, because they do not say it themselves.
 
+use super::filled::{ASKS, TELLS, plain};
 use super::shape::{NAMED, Places};
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{Control, StartMode};
+use crate::dialect::{CODE_SYSTEM, Control, StartMode};
 use crate::ir::Module;
 use crate::legalize::rests_on;
+use crate::library::{Input, by_other_systems, understood};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
 
 /// A mode that programs of the library begin in without naming it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,10 +21,97 @@ pub struct AskedStart {
     pub what: &'static str,
     /// The codes of which one is in force: `G20`, `G21`.
     pub codes: Vec<String>,
+    /// These by G code system, where the library shows another one than is taken, and none is said.
+    #[serde(skip)]
+    pub systems: Vec<(String, Vec<String>)>,
     /// How many programs rest on it.
     pub programs: usize,
     /// The first of them, as `file:line`.
     pub places: Vec<String>,
+}
+
+impl AskedStart {
+    /// The codes in words: `G20, G21`, or `G20, G21 in B; G70, G71 in C`.
+    pub fn told(&self) -> String {
+        let mut lists: Vec<(&[String], Vec<&str>)> = Vec::new();
+        for (system, codes) in &self.systems {
+            match lists.iter_mut().find(|(known, _)| known == codes) {
+                Some((_, systems)) => systems.push(system),
+                None => lists.push((codes, vec![system])),
+            }
+        }
+        if lists.is_empty() {
+            return self.codes.join(", ");
+        }
+        let told =
+            lists.iter().map(|(codes, systems)| format!("{} in {}", codes.join(", "), systems.join(" and ")));
+        told.collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// What programs begin in without saying it, as one line to fill in with a line for each mode before it; a line for each G code system,
+/// where that is open. What is `said` stays, and gets more codes.
+pub(super) fn lines(asked: &[AskedStart], said: Option<&str>) -> String {
+    let mut lines = String::new();
+    let _ =
+        writeln!(lines, "{TELLS} What is in force after a reset, as the machine's page of codes shows it.");
+    if asked.iter().any(|asked| !asked.systems.is_empty()) {
+        let _ = writeln!(lines, "{TELLS} Answer {CODE_SYSTEM} first, and take the codes of that system.");
+    }
+    for begun @ AskedStart { what, programs, places, .. } in asked {
+        let programs = if *programs == 1 { "1 program".to_owned() } else { format!("{programs} programs") };
+        let (codes, places) = (begun.told(), plain(&places.join(", ")));
+        let _ = writeln!(lines, "{TELLS} {what}: one of {codes} ({programs}: {places})");
+    }
+    for (choice, of) in choices(asked) {
+        let _ = match said {
+            Some(_) => writeln!(lines, "{TELLS} Write these into codes too, one of each: {choice}{of}"),
+            None => writeln!(lines, "{ASKS} codes = \"{choice}\"{of}"),
+        };
+    }
+    lines
+}
+
+/// What is to be chosen from, each with whose it is, if that hangs on the G code system.
+fn choices(asked: &[AskedStart]) -> Vec<(String, String)> {
+    let systems: BTreeSet<&String> =
+        asked.iter().flat_map(|asked| &asked.systems).map(|(system, _)| system).collect();
+    if systems.is_empty() {
+        let choice = asked.iter().map(|asked| asked.codes.join("|")).collect::<Vec<_>>();
+        return vec![(choice.join(" "), String::new())];
+    }
+    let of = |system: &String| {
+        let own = |asked: &AskedStart| {
+            asked.systems.iter().find(|(of, _)| of == system).map(|(_, codes)| codes.join("|"))
+        };
+        (asked.iter().filter_map(own).collect::<Vec<_>>().join(" "), format!(" # in G code system {system}"))
+    };
+    systems.into_iter().map(of).collect()
+}
+
+/// The modes that the profile does not say, by each G code system of a lathe but for the one that is taken and is not hers.
+pub(super) fn asked_by_others(places: &Places<'_>, inputs: &[Input], source: &Control) -> Vec<AskedStart> {
+    let mut all: Vec<AskedStart> = Vec::new();
+    for (system, control) in by_other_systems(source) {
+        let is_said = |asked: &AskedStart| source.start().iter().any(|mode| mode.op.group() == asked.group);
+        let of = asked(places, &control, &understood(inputs, &control).module);
+        for mut new in of.into_iter().filter(|new| !is_said(new)) {
+            let codes = new.codes.clone();
+            match all.iter_mut().find(|old| old.group == new.group) {
+                Some(old) => {
+                    let more: Vec<String> =
+                        codes.iter().filter(|code| !old.codes.contains(code)).cloned().collect();
+                    old.codes.extend(more);
+                    old.systems.push((system.clone(), codes));
+                }
+                None => {
+                    new.systems.push((system.clone(), codes));
+                    all.push(new);
+                }
+            }
+        }
+    }
+    all
 }
 
 /// The modes that the profile does not say; those that most programs rest on are first.
@@ -41,6 +131,7 @@ pub(super) fn asked(places: &Places<'_>, source: &Control, module: &Module) -> V
             group,
             what: words(group),
             codes,
+            systems: Vec::new(),
             programs: programs.len(),
             places: programs.iter().take(NAMED).map(|one| places.at(one.file, one.site.span)).collect(),
         })

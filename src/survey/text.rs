@@ -87,7 +87,7 @@ fn codes(out: &mut String, codes: &[AskedCode]) {
     out.push_str(
         "The source's profile says it in [[site]]; what a builder made of a code stands in the machine's own manual.\n",
     );
-    for AskedCode { code, programs, frees, places, comment, block } in codes.iter().take(CODES) {
+    for AskedCode { code, programs, frees, places, comment, block, .. } in codes.iter().take(CODES) {
         let frees = if *frees > 0 { format!(", {frees} wait for nothing else") } else { String::new() };
         let places = places.join(", ");
         let _ = writeln!(out, "  {code:<6} {}{frees}: {}", count(*programs), shown(&places));
@@ -112,14 +112,9 @@ fn start(out: &mut String, asked: &[AskedStart]) {
     out.push_str(
         "The source's profile says it under [start]; the machine's page of codes shows it after a reset.\n",
     );
-    for AskedStart { what, codes, programs, places, .. } in asked {
-        let _ = writeln!(
-            out,
-            "  {what} ({}) {}: {}",
-            codes.join(", "),
-            count(*programs),
-            shown(&places.join(", "))
-        );
+    for begun @ AskedStart { what, programs, places, .. } in asked {
+        let _ =
+            writeln!(out, "  {what} ({}) {}: {}", begun.told(), count(*programs), shown(&places.join(", ")));
     }
 }
 

@@ -198,3 +198,62 @@ fn a_cycle_of_the_maker_alone_may_be_left_out() {
     assert!(!made.contains("G47") && made.contains("X2."), "{made}");
     assert!(run.out.contains("engraves") || run.err.contains("engraves"), "{}{}", run.out, run.err);
 }
+
+/// What a lathe of another G code system begins in is asked in its codes, and either answer may come first.
+#[test]
+fn the_code_system_and_what_is_in_force_are_answered_in_any_order() {
+    let text = "O1\nT0101\nG97 S500 M3\nG0 X60. Z2.\nG77 X50. Z-20. F.2\nX46.\nG0 Z5.\nM30\n";
+    let shop = Shop::with(&[("lib/a.nc", text)]);
+    let line = "survey lib --from fanuc --to haas --write m.toml";
+    assert_eq!(shop.run(line).code, 0);
+    let asked = shop.read("m.toml");
+    // By facts/fanuc-lathe.md 1.
+    assert!(asked.contains("#? # Answer gcode_system first"), "{asked}");
+    assert!(asked.contains("#? # the unit: one of G20, G21 in B; G70, G71 in C ("), "{asked}");
+    assert!(asked.contains("#? # feed a minute or a turn: one of G94, G95 in B and C ("), "{asked}");
+    assert!(asked.contains("#? # absolute or incremental: one of G90, G91 in B and C ("), "{asked}");
+    let begins = "[start]\ncodes = \"G21 G18 G95 G90 G54 G0\"\n";
+    let kind = "dialect = \"fanuc\"\nmachine = \"lathe\"\naxes = [\"X\", \"Z\"]\n";
+    let told = |profile: String, wanted: &[&str]| {
+        shop.write("s.toml", profile.as_bytes());
+        let run = shop.run("convert lib --machine s.toml --to haas --out out");
+        assert_eq!(run.code, 2, "{}", run.out);
+        assert!(wanted.iter().all(|wanted| run.err.contains(wanted)), "{}", run.err);
+    };
+    let system = "write gcode_system = \"B\" under [settings]";
+    told(format!("{kind}{begins}"), &["G code system A is taken", system]);
+    // A mill has G95 too, and no G99 that programs begin in.
+    let of_a = "[start]\ncodes = \"G21 G18 G99 G54 G0\"\n";
+    told(
+        format!("dialect = \"fanuc\"\n{of_a}"),
+        &["a mill is taken", "write machine = \"lathe\"", "gcode_system = \"A\""],
+    );
+    let settings = |system: &str| format!("[settings]\ngcode_system = \"{system}\"\n");
+    told(format!("{kind}{}{begins}", settings("C")), &["gcode_system is \"C\"", system]);
+    shop.write("s.toml", format!("{kind}{}{begins}", settings("B")).as_bytes());
+    let run = shop.run("survey lib --machine s.toml --to haas");
+    assert!(run.code == 0 && !run.out.contains("take from the machine"), "{}{}", run.out, run.err);
+}
+
+/// The words of a builder's code are asked with it, and what the line says is an answer.
+#[test]
+fn a_builders_code_is_asked_with_its_words() {
+    let shop = Shop::with(&[
+        ("lib/a.nc", "O1\nG21 G90 G17 G54 G94\nM200 P11\nG190 A1. Q2.\nG1 X1. F100.\nM30\n"),
+        ("lib/b.nc", "O2\nG21 G90 G17 G54 G94\nG1 X5. F100. M201 P3\nM30\n"),
+    ]);
+    assert_eq!(shop.run("survey lib --from fanuc --to haas --write m.toml").code, 0);
+    let asked = shop.read("m.toml");
+    assert!(asked.contains("\n#? words = { P = \"P\" } # "), "{asked}");
+    assert!(asked.contains("\n#? words = { A = \"A\", Q = \"Q\" } # "), "{asked}");
+    // Beside a place it may be the word of another code.
+    assert_eq!(asked.matches("#? words").count(), 2, "{asked}");
+    let answered = asked.replace("#? [[site]]", "[[site]]").replace("#? code", "code");
+    let answered = answered.replace("#? text = \"\"", "text = \"a\"").replace("#? words", "words");
+    let answered = answered.replace("#? name = \"\"", "do = \"omit\"");
+    let unit = "units = \"metric\"\ndecimal_point = \"calculator\"\n";
+    shop.write("m.toml", answered.replacen('\n', &format!("\n{unit}"), 1).as_bytes());
+    let run = shop.run("convert lib/a.nc --machine m.toml --to haas --out out");
+    assert!(run.out.contains(" 0 refused"), "{}{}", run.out, run.err);
+    assert_eq!(run.out.matches("is left out").count(), 2, "{}", run.out);
+}

@@ -32,7 +32,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     // Of a lathe's holes only taps are known to: the others may be those of a live tool, or of none that turns.
     let (starts, taps_start) = (starts && context.source.machine() == Machine::Mill, starts);
     // A rigid tap turns the spindle itself, whatever stood before it.
-    let rigid = is_rigid(context.target);
+    // A code chooses which spindle taps, where some taps are a live tool's: the main one may not be it.
+    let of_one_spindle = !context.features.any_op(Op::is_live_tap);
+    let rigid = of_one_spindle && is_rigid(context.source, context.target);
     // Rigid taps by a code turn the spindle themselves too.
     let taps = context.features.op(Op::RigidTaps)
         && context.target.machine() == Machine::Mill
@@ -209,11 +211,16 @@ impl Standing {
 const MAY_STAND: &str = "it is not known here that the spindle turns, and the source's tap starts it by itself; the target's does not: \
      write M3 or M4 before it";
 
-/// True for a mill whose taps are rigid, by a code of their own that turns the spindle, or all of them as by that code.
-fn is_rigid(control: &Control) -> bool {
-    let answer = control.behaviour(Question::TapRigid).map(|row| row.value.as_str());
-    let has_code = control.code_for(Op::RigidTaps, &std::collections::BTreeMap::new()).is_some();
-    has_code && control.machine() == Machine::Mill && matches!(answer, Some("always" | "code"))
+/// True for a target whose taps are rigid, by a code of their own that turns the spindle, or all of them as by that code. On a lathe the
+/// code is written before each tap that is rigid on the source.
+fn is_rigid(source: &Control, target: &Control) -> bool {
+    let answer = |control: &Control| control.behaviour(Question::TapRigid).map(|row| row.value.clone());
+    let has_code = target.code_for(Op::RigidTaps, &std::collections::BTreeMap::new()).is_some();
+    has_code
+        && match target.machine() {
+            Machine::Mill => matches!(answer(target).as_deref(), Some("always" | "code")),
+            Machine::Lathe => answer(source).as_deref() == Some("always"),
+        }
 }
 
 /// True where a block begins a tap, or one is in force.

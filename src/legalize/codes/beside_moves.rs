@@ -47,8 +47,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let number = stmt.site.sequence.get();
                 let [first, last] =
                     ends.each_ref().map(|ends| number.is_some_and(|number| ends.contains(&number)));
-                let whole =
-                    Whole { head: first || cornered || in_pass, tail: last || corner || passes(&state) };
+                // A jump to the number would pass over what acts before the move.
+                let ends = last && !first && !out.is_empty();
+                let head = first || cornered || in_pass;
+                let whole = Whole { head, tail: last || corner || passes(&state), ends };
                 cornered = corner;
                 match before {
                     Some(before) => {
@@ -87,6 +89,8 @@ fn passes(modal: &Modal) -> bool {
 struct Whole {
     head: bool,
     tail: bool,
+    /// True for the last block of a contour: what acts before its move is still in the contour, and the number goes with the move.
+    ends: bool,
 }
 
 /// True for a line whose end the next block says too: with a corner, or by its angle.
@@ -158,7 +162,7 @@ fn split(
         ..SourceInfo::default()
     };
     for (at, items) in early.into_iter().enumerate() {
-        let site = site(at == 0, &mut stmt);
+        let site = site(at == 0 && !whole.ends, &mut stmt);
         out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
     }
     let behind = late.into_iter().map(|items| (items, site(false, &mut stmt))).collect::<Vec<_>>();

@@ -8,6 +8,7 @@ use super::place::Place;
 use super::straight::{entered_straight, goes_on_to};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
 use crate::ir::{Module, Nc, Program, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
@@ -38,8 +39,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             if !nc.ops().any(Op::reads_contour) {
                 continue;
             }
-            if let Some((span, what)) = returns(program, nc, from) {
-                let told = Diagnostic::new(Code::NoEquivalent, span, what.as_str()).with_help(RETURNS_HELP);
+            let beyond = beyond(program, nc, from, [context.source, context.target]);
+            for (span, what, help) in returns(program, nc, from).into_iter().chain(beyond) {
+                let told = Diagnostic::new(Code::NoEquivalent, span, what.as_str()).with_help(help);
                 context.add_once(index, &format!("{what} {:?}", stmt.site.span), told);
             }
             if let Err(what) = check(program, nc, context.target.text().sequence_max) {
@@ -102,7 +104,7 @@ fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
 }
 
 /// Where the last block of a contour to be turned goes back along Z, as far as the words say it: the control stops there (docs/lathe.md R10).
-fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String)> {
+fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String, &'static str)> {
     if !nc.has(Op::RoughTurning) {
         return None;
     }
@@ -128,7 +130,7 @@ fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String)> {
             let what = format!(
                 "N{last}, the last block of this contour, goes back along Z, and the control stops there: Z of a contour may not turn back"
             );
-            return Some((stmt.site.span, what));
+            return Some((stmt.site.span, what, RETURNS_HELP));
         }
         along = if way == 0.0 { along } else { way };
     }
@@ -136,6 +138,47 @@ fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String)> {
 }
 
 const RETURNS_HELP: &str = "end the contour with the move along X, and write the move back in Z after it";
+
+/// Where the last block of a contour goes beyond the start of the cycle, which the source allows and the target does not (docs/lathe.md
+/// R11), as far as its words are places.
+fn beyond(
+    program: &Program,
+    nc: &Nc,
+    from: Place,
+    [source, target]: [&Control; 2],
+) -> Option<(Span, String, &'static str)> {
+    let (axis, letter, start) = match nc.ops().find(|op| op.reads_contour())? {
+        Op::RoughTurning => (Role::X, 'X', from.x()?),
+        Op::RoughFacing => (Role::Z, 'Z', from.z()?),
+        _ => return None,
+    };
+    if stops_beyond(source) || !stops_beyond(target) || from.counts_steps() {
+        return None;
+    }
+    let number = |role: Role| nc.word(role).and_then(|value| value.constant()).map(|number| number as u32);
+    let block = |number: u32| {
+        let (block, place) = find(program, number).ok()?;
+        program.blocks.get(block)?.stmts.get(place)
+    };
+    let last = number(Role::ContourLast)?;
+    let place = |stmt: &Stmt| stmt.kind.nc()?.word(axis)?.constant();
+    let (begin, end) = (block(number(Role::ContourFirst)?)?, block(last)?);
+    let (first, to) = (place(begin)?, place(end)?);
+    ((first - start) * (to - start) < 0.0).then(|| {
+        let what = format!(
+            "N{last}, the last block of this contour, goes to {letter}{to}, beyond {letter}{start} where the cycle begins: the target stops there"
+        );
+        (end.site.span, what, BEYOND_HELP)
+    })
+}
+
+/// True for a control that lets no point of a contour lie beyond the start of the cycle: it has the blocks before its cycles alone.
+fn stops_beyond(control: &Control) -> bool {
+    control.dialect().settings.iter().any(|row| row.otherwise == Some(Role::ThreadLeast))
+}
+
+const BEYOND_HELP: &str =
+    "begin the cycle as far out as its contour ends, or end the contour where the cycle begins";
 
 /// True where what stood in one block of the source goes on after a statement.
 fn is_split(program: &Program, (at, place): (usize, usize)) -> bool {

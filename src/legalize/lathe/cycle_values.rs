@@ -1,11 +1,12 @@
 //! What a cycle of a lathe takes besides its own words: where the source gives each value, and where the target takes it from.
 
-use super::settings::{Kind, row, setting, takes};
+use super::settings::{Kind, row, setting, stand_in, takes};
 use super::thread_form;
 use crate::assume::Predicate;
 use crate::canon::Role;
 use crate::dialect::{Control, Setting};
 use crate::ir::{Expr, Nc, NcItem, Stmt};
+use crate::legalize::features::Features;
 use std::sync::Arc;
 
 /// What a cycle takes besides its own words.
@@ -58,9 +59,9 @@ pub(super) fn told(
     stmt: &Stmt,
     kind: &'static Kind,
     before: Option<Values>,
-    source: &Control,
+    (source, features): (&Control, &Features),
 ) -> Result<Values, Untold> {
-    let mut values = given(stmt, kind, before, source)?;
+    let mut values = given(stmt, kind, before, (source, features))?;
     if !thread_form::apart(&mut values) {
         let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
         return Err((what.to_owned(), "write the number as it is: P021060".to_owned()).into());
@@ -114,7 +115,7 @@ fn given(
     stmt: &Stmt,
     kind: &'static Kind,
     before: Option<Values>,
-    source: &Control,
+    (source, features): (&Control, &Features),
 ) -> Result<Values, Untold> {
     let mut values = before.unwrap_or_default();
     let own = stmt.kind.nc().map(|nc| values_of(nc, kind)).unwrap_or_default();
@@ -123,7 +124,8 @@ fn given(
         if values.iter().any(|(found, _)| found == role) {
             continue;
         }
-        match setting(source, kind.cycle, *role) {
+        let by_setting = setting(source, kind.cycle, *role);
+        match by_setting.or_else(|| stand_in(source, features, kind.cycle, *role)) {
             Some((_, Some(value))) => values.push((*role, Expr::Number(value))),
             Some((name, None)) => return Err(of_setting(source, name, *role)),
             None => {}

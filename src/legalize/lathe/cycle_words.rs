@@ -10,7 +10,7 @@ use super::cycle_values::{Given, Need, Untold, Values, replace, resolve, told, v
 use super::place::Place;
 use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
 use super::setting_values::{Found, So, tell};
-use super::settings::{Kind, setting, takes};
+use super::settings::{Kind, setting, stand_in, takes};
 use super::straight::entered_straight;
 use super::thread_passes::{all, finishes, says_how};
 use super::threads::{beyond, flanks_are_open};
@@ -40,6 +40,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
                 takes(context.source, kind.setup, *role) != takes(context.target, kind.setup, *role)
                     || takes(context.source, kind.cycle, *role) != takes(context.target, kind.cycle, *role)
                     || apart(kind, *role)
+                    || stand_in(context.source, features, kind.cycle, *role).is_some()
             })
     };
     rough || super::settings::KINDS.iter().any(differs)
@@ -71,6 +72,7 @@ fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut C
     let mut run = Run {
         source: context.source,
         target: context.target,
+        features: &context.features,
         other_unit,
         modal: context.features.has(Feature::Modal),
         in_steps: context.features.op(Op::Incremental),
@@ -132,6 +134,7 @@ impl Set {
 struct Run<'c> {
     source: &'c Control,
     target: &'c Control,
+    features: &'c Features,
     /// True where the program may run in another unit than the one that the settings are in.
     other_unit: bool,
     /// True where a macro may run after each move, and leave the tool elsewhere.
@@ -224,7 +227,8 @@ impl Run<'_> {
     fn rests_on_length(&self, kind: &Kind, setup: &Values) -> bool {
         let written = |role: &Role| setup.iter().any(|(found, _)| found == role);
         kind.roles.iter().any(|role| {
-            let there = setting(self.source, kind.cycle, *role).is_some();
+            let there = setting(self.source, kind.cycle, *role).is_some()
+                || stand_in(self.source, self.features, kind.cycle, *role).is_some();
             let here = setting(self.target, kind.cycle, *role).is_some() && !written(role);
             role.is_length() && (there || here)
         })
@@ -240,7 +244,7 @@ impl Run<'_> {
             return vec![stmt];
         }
         let before = set.map(|set| set.values.clone());
-        let all = match told(&stmt, kind, before, self.source) {
+        let all = match told(&stmt, kind, before, (self.source, self.features)) {
             Ok(values) => values,
             Err(Untold(what, help, lacks)) => {
                 self.found.push((span, what, help, lacks.map_or(So::Refused, So::Lacks)));

@@ -2,6 +2,7 @@
 
 use crate::canon::{Op, Role};
 use crate::dialect::{CodeMeaning, Control};
+use crate::legalize::features::Features;
 
 /// A cycle, the block that sets what it takes, and what that is.
 pub struct Kind {
@@ -61,6 +62,26 @@ pub fn takes(control: &Control, op: Op, role: Role) -> bool {
     row(control, op).is_some_and(|row| row.words.values().any(|found| *found == role))
 }
 
+/// The setting that stands in for a word of the block before a cycle, by name, and its number where the profile says it; none where a
+/// block of the library sets such a word: that changes the setting, for the cycles of other programs and of later days too.
+pub fn stand_in<'c>(
+    control: &'c Control,
+    features: &Features,
+    op: Op,
+    role: Role,
+) -> Option<(&'c str, Option<f64>)> {
+    let wanted = |row: &&crate::dialect::Setting| row.otherwise == Some(role) && row.cycles.contains(&op);
+    let row = control.dialect().settings.iter().find(wanted)?;
+    let is_set = KINDS.iter().any(|kind| row.cycles.contains(&kind.cycle) && features.op(kind.setup));
+    let may = matches!(role, Role::CutDepth | Role::CutRetract) && !is_set;
+    may.then(|| (row.name.as_str(), stated(control, row)))
+}
+
+fn stated(control: &Control, row: &crate::dialect::Setting) -> Option<f64> {
+    let value = control.setting(&row.name).and_then(|value| value.parse::<f64>().ok());
+    value.map(|value| value / row.whole())
+}
+
 /// The setting that stands for a word of an operation, by name, and its number where the profile says it.
 pub fn setting(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f64>)> {
     // Finishing passes, run-out and angle may stand in one number.
@@ -77,6 +98,5 @@ pub fn setting(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f6
         stands && row.cycles.contains(&op)
     };
     let row = control.dialect().settings.iter().find(gives)?;
-    let stated = control.setting(&row.name).and_then(|value| value.parse::<f64>().ok());
-    Some((&row.name, stated.map(|value| value / row.whole())))
+    Some((&row.name, stated(control, row)))
 }

@@ -2,9 +2,10 @@
 //!
 //! Law: where a block of the source became several statements, its number stands at the first of them, once: whoever
 //! starts there by the number starts at its beginning. What only computes a temporary for a statement after it is its
-//! beginning, too. Side condition: a number that is a label stays with the block that it finds. Counter-example:
-//! `#101=0`, `N8 #504=#101`, of which a start at N8 leaves out the first.
+//! beginning, too. Side condition: a number that is a label stays with the block that it finds, and one that ends a contour of a lathe
+//! with the last of its statements that has it. Counter-example: `#101=0`, `N8 #504=#101`, of which a start at N8 leaves out the first.
 
+use crate::canon::Role;
 use crate::ir::{Class, Expr, Module, Place, Program, SourceInfo, StmtKind, TermKind, Var};
 use crate::legalize::Context;
 use crate::syntax::Label;
@@ -66,6 +67,7 @@ fn moves(program: &Program) -> Vec<(At, Option<u32>)> {
     let mut head: Option<(At, &SourceInfo, Option<u32>)> = None;
     // What stands directly before and comes from no block of its own.
     let mut before: Vec<(At, Thing<'_>)> = Vec::new();
+    let ends = ends_of_contours(program);
     for (at, block) in program.blocks.iter().enumerate() {
         if block.labels.iter().any(|label| matches!(label, Label::Number(_))) {
             head = None;
@@ -85,11 +87,12 @@ fn moves(program: &Program) -> Vec<(At, Option<u32>)> {
             }
             match &mut head {
                 Some((first, one, number)) if one.span == site.span && !site.span.is_empty() => {
-                    if site.sequence.is_some() && number.is_none() {
-                        *number = site.sequence.get();
-                        found.push((*first, site.sequence.get()));
+                    let own = site.sequence.get().filter(|own| !ends.contains(own));
+                    if own.is_some() && number.is_none() {
+                        *number = own;
+                        found.push((*first, own));
                     }
-                    if site.sequence.is_some() {
+                    if own.is_some() {
                         found.push((here, None));
                     }
                 }
@@ -105,6 +108,13 @@ fn moves(program: &Program) -> Vec<(At, Option<u32>)> {
         }
     }
     found
+}
+
+/// The numbers of the last blocks of contours: a cycle reads no further.
+fn ends_of_contours(program: &Program) -> Vec<u32> {
+    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    let ends = stmts.filter_map(|stmt| stmt.kind.nc()?.word(Role::ContourLast)?.constant());
+    ends.map(|number| number as u32).collect()
 }
 
 /// The first of what stands before that computes temporaries for a statement alone.

@@ -2,7 +2,7 @@
 
 use crate::canon::Group;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Row, Side, matters};
+use crate::dialect::{Control, DecimalPoint, Question, Row, Side, matters};
 use crate::syntax::{ExprKind, Item, ItemKind};
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
@@ -63,10 +63,14 @@ impl<'c> Findings<'c> {
 
     /// A word of a builder's code is carried as it is: a length without a point may count increments.
     pub fn bare_act_word(&mut self, letter: char, number: f64, point: bool, span: Span) {
-        if !point && number != 0.0 && crate::dialect::measures(letter) {
+        let by_units = self.control.profile().decimal_point == Some(DecimalPoint::Calculator);
+        if !point && number != 0.0 && crate::dialect::measures(letter) && !by_units {
             let message = format!("{letter}{number} beside a code of the builder has no decimal point");
             let finding = Diagnostic::new(Code::NotUnderstood, span, message);
-            self.add(finding.with_help("write the point: without one it may count increments"));
+            self.add(finding.with_help(
+                "write the point: without one it may count increments. Or say decimal_point = \"calculator\" in the machine's \
+                 profile, where a number without one counts whole units",
+            ));
         }
     }
 

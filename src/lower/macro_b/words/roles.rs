@@ -205,6 +205,15 @@ impl<'a> Lowering<'a> {
         if let Some(what) = not_converted(word, codes, in_force) {
             return self.findings.not_understood(span, what);
         }
+        if let Some((_, row)) = codes.iter().find(|(_, row)| matches!(row.op, Op::Act | Op::Builder)) {
+            let message = format!("{} has no meaning beside {}", word.letter, row.code);
+            let letter = word.letter;
+            let help = format!(
+                "name it in the [[site]] of {} in the machine's profile: words = {{ {letter} = \"{letter}\" }}",
+                row.code
+            );
+            return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+        }
         // A code that acts in its block alone is the one that takes words of its own.
         let own = codes.iter().find(|(_, row)| row.op.group() == Group::OneShot || row.op.is_cycle());
         let beside = match own.or(codes.first()) {
@@ -277,6 +286,14 @@ fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMean
         codes.iter().map(|(_, row)| *row).chain(in_force).find(|row| op(row.op)).map(|row| &*row.code)
     };
     let letter = word.letter;
+    let finishes = codes.iter().find(|(_, row)| row.op == Op::Finish);
+    if let Some((_, row)) = finishes.filter(|_| matches!(letter, 'D' | 'I' | 'K' | 'R')) {
+        return Some(format!(
+            "{letter} beside {} is a word of the roughing before it: no source says that finishing takes it, and what it does then. Leave \
+             it out",
+            row.code.split(' ').next().unwrap_or_default()
+        ));
+    }
     let taps = |op: Op| matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid);
     match letter {
         'Q' => has(taps).map(|code| {

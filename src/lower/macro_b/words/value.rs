@@ -2,7 +2,7 @@
 
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{BareLength, CodeMeaning, Machine, Question, Side};
+use crate::dialect::{BareLength, CodeMeaning, Machine, Question, Side, Without};
 use crate::ir::{BinOp, Expr, is_finer_than_words};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::expressions::{At, is_constant};
@@ -30,7 +30,9 @@ impl<'a> Lowering<'a> {
             return self.dwell(role, letter, number, point, value);
         }
         if role.is_act_word() {
-            self.findings.bare_act_word(letter, number, point, value.span);
+            if !code.is_some_and(|row| self.goes_nowhere(row)) {
+                self.findings.bare_act_word(letter, number, point, value.span);
+            }
             return Some((role, Expr::Number(number)));
         }
         if role.is_integer() {
@@ -59,6 +61,15 @@ impl<'a> Lowering<'a> {
         self.rest_on_numbers(value.span);
         let counts = self.control.bare_length_of(letter);
         Some((role, self.counted(counts, number, "a length", "numbers", value.span)))
+    }
+
+    /// True for a builder's code of which no control gets the words: the profile says that it is left out, or becomes a stop or an alarm.
+    fn goes_nowhere(&self, row: &CodeMeaning) -> bool {
+        let site = self.control.profile().site.iter().find(|site| site.code == row.code);
+        site.is_some_and(|site| {
+            let without = matches!(site.without, Some(Without::Omit | Without::Stop | Without::Alarm));
+            without && site.name.is_none() && site.target.is_none()
+        })
     }
 
     /// A word that counts least increments, and never has a point; what is computed is a count too.
