@@ -6,8 +6,8 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns, holes,
-    interpolations, lone_steps, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
-    written_corners, x_counts,
+    interpolations, lone_steps, modes, roughing, run_outs, steps, tap_feeds, thread_ways,
+    threads, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -46,6 +46,8 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(written_corners::concerns)
     .needs(&["corners", "increments", "units"]),
+    Pass::reports("zeros", "refuses increments of zeros and tables that no source explains", zeros::run)
+        .when(zeros::concerns),
     Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
         .when(steps::mode_to_letters)
         .needs(&["start", "beside-moves"]),
