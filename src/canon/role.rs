@@ -202,6 +202,8 @@ super::vocabulary! {
         OffsetNose = "offset.nose",
         /// Direction of the tip, 0 to 9, that is written into it.
         OffsetTip = "offset.tip",
+        /// Which reference position a return goes to: the second, the third or the fourth.
+        ReferencePoint = "reference.point",
         /// Number of a probed point.
         ProbePoint = "probe.point",
         /// Spindle-speed limit.

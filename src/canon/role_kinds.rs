@@ -86,6 +86,7 @@ impl Role {
                 | Role::Lookahead
                 | Role::OffsetRow
                 | Role::OffsetTip
+                | Role::ReferencePoint
                 | Role::ProbePoint
                 | Role::Act
         )

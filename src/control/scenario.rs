@@ -44,6 +44,8 @@ pub struct Scenario {
     pub tool: u32,
     /// The first and second reference position, machine coordinates.
     pub references: [Axes; 2],
+    /// The third and the fourth.
+    pub more_references: [Axes; 2],
     /// What each probe move meets, in order; after the last one all miss.
     pub probes: Vec<Probe>,
     /// What the operator answers, in order; after the last one 0. A stop whose message names a variable
@@ -132,6 +134,14 @@ pub struct StateValue {
     pub value: f64,
 }
 
+impl Scenario {
+    /// The four reference positions, in order.
+    pub fn reference_positions(&self) -> [Axes; 4] {
+        let ([first, second], [third, fourth]) = (self.references, self.more_references);
+        [first, second, third, fourth]
+    }
+}
+
 impl Default for Scenario {
     fn default() -> Self {
         Self {
@@ -149,6 +159,7 @@ impl Default for Scenario {
             tools: Table::default(),
             tool: 0,
             references: [[0.0; AXES]; 2],
+            more_references: [[0.0; AXES]; 2],
             probes: Vec::new(),
             answers: Vec::new(),
             state: Vec::new(),

@@ -52,6 +52,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.pass.moves", "single passes move as docs/lathe.md says"),
     ("machine:lathe.peck.retract", "a peck of a groove goes back by the clearance of the scenario"),
     ("machine:lathe.position.diameter", "a position of X that is read is a diameter"),
+    (
+        "machine:lathe.position.steps",
+        "a code that sets the position under G91 moves the zero by its words, as U and W do",
+    ),
     ("machine:lathe.spindle.stands", "a feed a turn while the spindle stands takes no time"),
     ("machine:lathe.taper.turns", "a taper that turns the infeed round is cut all the same"),
     ("machine:lathe.thread.infeed", "a thread without the way of its infeed goes in along one flank"),

@@ -20,6 +20,7 @@ mod lathe;
 mod motion;
 mod offsets;
 mod pauses;
+mod returns;
 mod rigid;
 mod rounding;
 mod rules;
@@ -108,7 +109,7 @@ pub struct Machine {
     radius_with_length: bool,
     path_mode: Op,
     polar: bool,
-    references: [Axes; 2],
+    references: [Axes; 4],
     /// The point that the last return to the reference position went through.
     by_way_of: Option<Axes>,
     /// What only a lathe has.
@@ -171,7 +172,7 @@ impl Machine {
             radius_with_length: false,
             path_mode: Op::CuttingMode,
             polar: false,
-            references: scenario.references,
+            references: scenario.reference_positions(),
             by_way_of: None,
             lathe: lathe::Lathe::default(),
             probes: scenario.probes.clone().into_iter(),

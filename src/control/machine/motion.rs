@@ -2,7 +2,7 @@
 
 use super::command::is_rotary;
 use super::tooling::LostBy;
-use super::{Command, Machine, arc, cycle, holes, inverse, lathe};
+use super::{Command, Machine, arc, cycle, holes, inverse, lathe, returns};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
@@ -60,8 +60,11 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     }
     for &op in &command.ops {
         match op {
-            Op::ReferenceReturn => return reference(machine, command, 0, trace).map(|()| false),
-            Op::Reference2 => return reference(machine, command, 1, trace).map(|()| false),
+            Op::ReferenceReturn => return returns::to(machine, command, 0, trace).map(|()| false),
+            Op::Reference2 => {
+                let which = returns::named(command)?;
+                return returns::to(machine, command, which, trace).map(|()| false);
+            }
             Op::Home => {
                 let home = machine.references[0];
                 machine.rapid_to(home, trace);
@@ -78,7 +81,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             }
             Op::Threading => return lathe::thread::many(machine, command, trace).map(|()| false),
             Op::ReferenceFrom => {
-                from_reference(machine, command, trace);
+                returns::from(machine, command, trace);
                 return Ok(false);
             }
             Op::Probe | Op::ProbeOther => {
@@ -191,46 +194,6 @@ fn takes_axes(command: &Command) -> bool {
             || op.is_lathe_cycle()
             || op.is_lathe_setup()
     })
-}
-
-/// To the reference position of the named axes, by way of the block's point.
-fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut Trace) -> Result<(), Stop> {
-    let home = machine.references[which];
-    let mut named: Vec<usize> = machine.named_axes(command).iter().map(|(axis, _)| *axis).collect();
-    if named.is_empty() && machine.rules.lathe {
-        return lathe::zeros::without_axes(machine, which, trace);
-    }
-    if named.is_empty() && machine.rules.reference_takes_all.ask(trace) {
-        named = (0..AXES).collect();
-    }
-    if command.has_axes() {
-        let by = machine.target(command);
-        machine.rapid_to(by, trace);
-        machine.by_way_of = Some(by);
-    }
-    let mut to = machine.position;
-    let along = named.contains(&LENGTH_AXIS);
-    for axis in named {
-        to[axis] = home[axis];
-        machine.round_home(axis);
-    }
-    machine.rapid_to(to, trace);
-    machine.may_lose_length(LostBy::Reference, along);
-    Ok(())
-}
-
-/// From the reference position by way of the point of the last return, and on to the block's.
-fn from_reference(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    trace.doubt("machine:reference.from");
-    if let Some(point) = machine.by_way_of {
-        let mut by = machine.position;
-        for (axis, _) in machine.named_axes(command) {
-            by[axis] = point[axis];
-        }
-        machine.rapid_to(by, trace);
-    }
-    let to = machine.target(command);
-    machine.rapid_to(to, trace);
 }
 
 fn in_machine_coordinates(machine: &mut Machine, command: &Command, trace: &mut Trace) {

@@ -74,6 +74,9 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
             }
             Op::SetPosition => {
                 let at = machine.frame.program(&machine.position);
+                if machine.rules.lathe && machine.incremental && command.has_axes() {
+                    trace.doubt("machine:lathe.position.steps");
+                }
                 for (axis, value) in machine.named_places(command, &at) {
                     machine.frame.datum[axis] += at[axis] - value;
                     if machine.frame.local[axis] != 0.0 && machine.rules.set_position_ends_local.ask(trace) {
@@ -164,11 +167,12 @@ impl Machine {
         self.frame.number == 0
     }
 
-    /// The same, where an increment counts from a place.
+    /// The same, where an increment counts from a place: by its letter, or on a lathe by the mode (Z6).
     fn named_places(&self, command: &Command, at: &Axes) -> Vec<(usize, f64)> {
         let unit = |axis| if super::command::is_rotary(axis) { 1.0 } else { self.unit() };
         let places = command.places();
         let place = |(axis, value, steps): (usize, f64, bool)| {
+            let steps = steps || self.rules.lathe && self.incremental;
             (axis, value * unit(axis) + if steps { at[axis] } else { 0.0 })
         };
         places.map(place).collect()

@@ -12,7 +12,7 @@ use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
 use super::setting_values::{Found, So, tell};
 use super::settings::{Kind, setting, stand_in, takes};
 use super::straight::entered_straight;
-use super::thread_passes::{all, finishes, says_how};
+use super::thread_passes::{all, finishes, runs_out as single_passes, says_how};
 use super::threads::{beyond, flanks_are_open};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
@@ -281,14 +281,14 @@ impl Run<'_> {
         }
         self.found
             .extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, So::Supposed(needs))));
-        // No source says by which way a pass in moves would run out.
+        // No source says by which way a pass in moves would run out: single passes do it as the cycle does.
         let runs_out =
             all.iter().any(|(role, value)| *role == Role::ThreadRunOut && value.constant() != Some(0.0));
         let passes = match more {
             0 => Some(Vec::new()),
-            more => {
-                finishes(&stmt, (angle, more), self.place, self.target).filter(|_| may.is_ok() && !runs_out)
-            }
+            _ if may.is_err() => None,
+            more if runs_out => single_passes(&stmt, (angle, more), self.place, self.target),
+            more => finishes(&stmt, (angle, more), self.place, self.target),
         };
         if passes.is_none() {
             let (what, help) = if runs_out { (RUNS_OUT, RUNS_OUT_HELP) } else { (FINISHES, FINISHES_HELP) };
@@ -356,9 +356,10 @@ fn names_other_unit(program: &Program, control: &Control) -> bool {
     stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(other)))
 }
 
-const RUNS_OUT: &str = "the target finishes a thread in one pass, and this one has more and runs out: the others are not written out, as no \
-                        source says by which way they run out";
-const RUNS_OUT_HELP: &str = "give the thread one finishing pass and an allowance for it, or no run-out";
+const RUNS_OUT: &str = "the target finishes a thread in one pass, and this one has more and runs out: the others are not written as single passes, as \
+                        where the cycle begins, or a number of it, is not known here, or the target's single passes do not run out as its cycle does";
+const RUNS_OUT_HELP: &str = "write X and Z of the start as numbers right before the thread, and a G code in the next block that moves; or give the thread one \
+                             finishing pass and an allowance for it, or no run-out";
 const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \
                         where the cycle begins, or a number of it, is not known here";
 const FINISHES_HELP: &str = "write X and Z of the start as numbers right before the thread, and a G code in the next block that moves; or give the \

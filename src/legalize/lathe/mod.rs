@@ -32,3 +32,4 @@ pub mod thread_ways;
 pub mod threads;
 pub mod written_corners;
 pub mod x_counts;
+pub mod zeros;

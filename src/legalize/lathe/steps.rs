@@ -8,6 +8,7 @@ use super::contour_starts::Contours;
 use super::place::Place;
 use super::restarts::restarts;
 use super::straight::entered_straight;
+use super::zeros::{adds, sets_zero};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
@@ -66,7 +67,8 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let span = stmt.site.span;
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 match modal.op(Group::Distance) {
-                    _ if !moves(nc) => {}
+                    _ if !moves(nc) && !sets_zero(nc) => {}
+                    Some(Op::Incremental) if adds(nc) => found.push((index, span, TABLE)),
                     Some(Op::Incremental) if nc.has(Op::MachineOnce) => found.push((index, span, MACHINE)),
                     Some(Op::Incremental) => swap(nc, |(whole, step)| (whole, step)),
                     Some(_) => {}
@@ -80,7 +82,8 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
         }
     }
     for (index, span, what) in found {
-        context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(HELP));
+        let help = if what == TABLE { TABLE_HELP } else { HELP };
+        context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
     true
 }
@@ -128,6 +131,8 @@ fn contours_elsewhere(module: &Module, facts: &ModalFacts) -> Vec<(usize, Span, 
 const CONTOUR: &str =
     "this cycle reads its contour under another of G90 and G91 than the one it stands under";
 const MACHINE: &str = "G53 while G91 is in force: no source says what its words count";
+const TABLE: &str = "a table is written by an increment (G91), and no word of the target adds to it";
+const TABLE_HELP: &str = "write the whole value under G90";
 const UNKNOWN: &str = "whether G90 or G91 is in force here is not known";
 const HELP: &str =
     "write G90 or G91 before it, or say in the source's profile how a program begins: [start] codes";
@@ -185,12 +190,22 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     mode = Some(Op::Absolute).filter(|_| stmt.site.skip.is_none());
                     continue;
                 }
+                // Under G91 they would shift or add.
+                let table = sets_zero(nc) && !nc.has(Op::SetPosition);
                 // The depth of a hole counts from its plane, not from where the tool stands.
-                if !place.drills() && (both_kinds(nc) || inside) {
+                if !place.drills() && !table && (both_kinds(nc) || inside) {
                     to_places(nc, before);
                 }
                 // The blocks of a contour are places: the cycle must not read them under G91.
-                if !moves(nc) && !nc.ops().any(Op::reads_contour) {
+                if !moves(nc) && !sets_zero(nc) && !nc.ops().any(Op::reads_contour) {
+                    continue;
+                }
+                if table {
+                    if has_places(nc) && mode != Some(Op::Absolute) {
+                        nc.items.insert(0, NcItem::Op(Op::Absolute));
+                        let alone = stmt.site.skip.is_none() && !calls_after_moves;
+                        mode = Some(Op::Absolute).filter(|_| alone);
+                    }
                     continue;
                 }
                 if both_kinds(nc) {
@@ -266,10 +281,14 @@ fn has_steps(nc: &Nc) -> bool {
     nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_step()))
 }
 
+fn has_places(nc: &Nc) -> bool {
+    let whole = |item: &NcItem| matches!(item, NcItem::Word(role, _) if Role::STEPS.iter().any(|(whole, _)| whole == role));
+    nc.items.iter().any(whole)
+}
+
 /// True of a block with places and increments.
 fn both_kinds(nc: &Nc) -> bool {
-    let whole = |item: &NcItem| matches!(item, NcItem::Word(role, _) if Role::STEPS.iter().any(|(whole, _)| whole == role));
-    has_steps(nc) && nc.items.iter().any(whole)
+    has_steps(nc) && has_places(nc)
 }
 
 /// Makes places of increments, if all of them are known.

@@ -7,6 +7,7 @@
 
 use super::cycle_values::Values;
 use super::place::Place;
+use super::settings::{setting, takes};
 use crate::canon::{Group, Op, Role};
 use crate::dialect::Control;
 use crate::ir::{Expr, Nc, NcItem, SourceInfo, Stmt, StmtKind};
@@ -86,6 +87,21 @@ impl Thread {
         moves.map(|items| Nc { items })
     }
 
+    /// So many single passes at full depth, from where the last pass of the cycle begins, and the way there and back.
+    fn singles(&self, count: usize) -> Vec<Nc> {
+        let word = |role: Role, value: f64| NcItem::Word(role, Expr::Number(self.rounded(value)));
+        let (from, end) = (self.from, self.end);
+        let z = from.1 + (end.1 - from.1).signum() * self.height * self.slope();
+        let taper = self.taper * (end.1 - z) / (end.1 - from.1);
+        let mut pass = vec![NcItem::Op(Op::ThreadingPass), word(Role::X, end.0), word(Role::Z, end.1)];
+        pass.extend((taper != 0.0).then(|| word(Role::Taper, taper)));
+        pass.extend(self.lead.map(|lead| word(Role::Lead, lead)));
+        pass.extend(self.start.map(|start| word(Role::ThreadStart, start)));
+        let to = |z: f64| vec![NcItem::Op(Op::Rapid), word(Role::Z, z)];
+        let all = std::iter::once(to(z)).chain(std::iter::repeat_n(pass, count)).chain([to(from.1)]);
+        all.map(|items| Nc { items }).collect()
+    }
+
     /// The blocks of passes.
     fn stmts(&self, passes: impl Iterator<Item = Pass>, stmt: &Stmt) -> Vec<Stmt> {
         let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
@@ -104,6 +120,30 @@ pub fn finishes(
     let nc = stmt.kind.nc().filter(|_| stmt.site.skip.is_none())?;
     let thread = Thread::of(nc, angle, from, target)?;
     Some(thread.stmts(std::iter::repeat_n((thread.height, false), count), stmt))
+}
+
+/// The blocks of so many finishing passes after a thread's cycle that runs out, by single passes, which run out as the cycle of the target does (docs/lathe.md
+/// P9): the tool goes along Z to where the last pass of the cycle begins, and back after them. None where a number is not known.
+pub(super) fn runs_out(
+    stmt: &Stmt,
+    (angle, count): (f64, usize),
+    from: Place,
+    target: &Control,
+) -> Option<Vec<Stmt>> {
+    let nc = stmt.kind.nc().filter(|_| stmt.site.skip.is_none())?;
+    let has = |role: Role| takes(target, Op::ThreadingPass, role) || nc.word(role).is_none();
+    let by_setting = setting(target, Op::Threading, Role::ThreadRunOut).is_some();
+    if !by_setting
+        || !takes(target, Op::ThreadingPass, Role::Lead)
+        || !has(Role::Taper)
+        || !has(Role::ThreadStart)
+    {
+        return None;
+    }
+    let thread = Thread::of(nc, angle, from, target)?;
+    let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
+    let made = thread.singles(count).into_iter();
+    Some(made.map(|nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() }).collect())
 }
 
 /// The blocks of a thread, in place of its cycle: `leading` says whether the passes of a thread that is cut on both flanks begin with

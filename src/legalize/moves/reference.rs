@@ -2,12 +2,13 @@
 //!
 //! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
-//! axes the machine has is taken from the moves of the library: X, Y (on a lathe only where it is moved), Z and, on a mill, the rotary ones it moves; of those the target
-//! has no letter for, the ones that the program itself moves.
+//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves; of those the target
+//! has no letter for, the ones that the program itself moves. A lathe sends home the axes that its profile lists, else X and Z (docs/lathe.md Z2):
+//! where the profile lists none and the library moves Y or C, the return is refused.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Machine, Question};
+use crate::dialect::{Control, Machine, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::lathe::steps::has_letters;
 use crate::legalize::{Context, replace_statements};
@@ -37,12 +38,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return doubt(module, there, context);
     }
     let rotary = [Role::A, Role::B, Role::C];
-    // A lathe sends X and Z home, and C by its own word (docs/lathe.md Z2).
     let turns = context.source.machine() == Machine::Lathe;
-    let moved = rotary.into_iter().filter(|role| !turns && ncs().any(|nc| nc.word(*role).is_some()));
-    let has_y = !turns || ncs().any(|nc| nc.word(Role::Y).is_some() || nc.word(Role::StepY).is_some());
-    let linear = [Role::X, Role::Y, Role::Z].into_iter().filter(|role| *role != Role::Y || has_y);
-    let axes: Vec<Role> = linear.chain(moved).collect();
+    let moves = |role: &Role| {
+        let step = Role::STEPS.iter().find(|(whole, _)| whole == role).map(|(_, step)| *step);
+        ncs().any(|nc| nc.word(*role).is_some() || step.is_some_and(|step| nc.word(step).is_some()))
+    };
+    let linear = [Role::X, Role::Y, Role::Z].into_iter();
+    let axes: Vec<Role> = match turns {
+        true => of_lathe(context.source, context.target, &moves),
+        false => linear.chain(rotary.into_iter().filter(|role| moves(role))).collect(),
+    };
+    let untold = turns && context.source.profile().axes.is_none() && [Role::Y, Role::C].iter().any(moves);
     let letters = has_letters(context.source);
     // What the target has no letter for is named where the program moves it, and refused there.
     let target = context.target;
@@ -70,6 +76,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.rests_on_source(index, span, Question::ReferenceAllAxes);
             let distance = state.op(Group::Distance);
             let (code, what) = match distance {
+                _ if untold => (Code::NoEquivalent, UNTOLD),
                 _ if letters || distance.is_some() => {
                     restore = distance.filter(|distance| !letters && *distance == Op::Absolute);
                     name(nc, &own[index], letters);
@@ -85,7 +92,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                      G91 is in force: write one of them before it",
                 ),
             };
-            context.add(index, Diagnostic::new(code, span, what).asked_once());
+            let told = Diagnostic::new(code, span, what).asked_once();
+            context.add(index, if untold { told.with_help(UNTOLD_HELP) } else { told });
             if !turns && rotary.into_iter().any(|role| target.letter(role, None).is_none()) {
                 context.add_once(
                     index,
@@ -101,6 +109,21 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
     });
 }
+
+/// The axes that a lathe sends home: those that its profile lists, as far as the target has them or the library moves them.
+fn of_lathe(source: &Control, target: &Control, moves: &dyn Fn(&Role) -> bool) -> Vec<Role> {
+    let listed = |control: &Control, role: &Role| {
+        let axes = control.profile().axes.as_ref();
+        axes.is_some_and(|axes| axes.iter().any(|axis| Some(axis.number()) == role.axis_number()))
+    };
+    let more = [Role::Y, Role::C].into_iter();
+    let more = more.filter(|role| listed(source, role) && (listed(target, role) || moves(role)));
+    [Role::X, Role::Z].into_iter().chain(more).collect()
+}
+
+const UNTOLD: &str = "a return to the reference position without axes takes all axes home, and which axes the machine has is not known";
+const UNTOLD_HELP: &str =
+    "name the axes in this block, or list them in the source's profile: axes = [\"X\", \"Z\", ...]";
 
 /// What a return without axes does on the source is not known; on the target it may move all of them.
 fn doubt(module: &Module, all: bool, context: &mut Context<'_>) {

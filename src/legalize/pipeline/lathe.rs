@@ -7,7 +7,7 @@ use crate::legalize::Context;
 use crate::legalize::lathe::{
     bare_starts, contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns,
     holes, interpolations, lone_passes, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
-    written_corners, x_counts,
+    written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -59,6 +59,8 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(written_corners::concerns)
     .needs(&["corners", "increments", "units"]),
+    Pass::reports("zeros", "refuses increments of zeros and tables that no source explains", zeros::run)
+        .when(zeros::concerns),
     Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
         .when(steps::mode_to_letters)
         .needs(&["start", "beside-moves"]),

@@ -20,6 +20,7 @@ mod roughing;
 mod shown;
 mod substitutes;
 mod texts;
+mod threads;
 mod tolerance;
 mod unseen;
 mod variables;

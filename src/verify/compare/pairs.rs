@@ -19,6 +19,7 @@ use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, makes_ready, returns_to_caller,
     stands_for,
 };
+use super::threads;
 use super::tolerance::Tolerance;
 use super::unseen::{before_alarm, told_at};
 use super::variables::variables_differ;
@@ -84,7 +85,8 @@ pub(super) fn acts<'r>(
     if brought(source.0.control, target.0.control) {
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
-    [joined(together(ours), is_cut(source.1)), joined(together(theirs), is_cut(target.1))]
+    let [ours, theirs] = [ours, theirs].map(|acts| threads::again(together(acts)));
+    [joined(ours, is_cut(source.1)), joined(theirs, is_cut(target.1))]
 }
 
 /// Two runs side by side.

@@ -5,6 +5,7 @@ use super::verifier::Verifier;
 use crate::assume::Predicate;
 use crate::canon::Role;
 use crate::control::{End, ProgramRef, Run, Scenario};
+use crate::dialect::{Axis, Machine};
 use crate::verify::certificate::Why;
 use crate::verify::compare::{is_cut, returns};
 use crate::verify::explore::{Circumstances, Proposals, inputs_of_both, unit};
@@ -174,10 +175,16 @@ impl Verifier<'_, '_> {
     }
 }
 
-/// Rotary axes that the target does not have stand at their reference position, where a return of all axes leaves them.
+/// Rotary axes that the target does not have stand at their reference position, where a return of all axes leaves them; so do Y and C of a lathe
+/// whose profile does not list them.
 fn at_reference(scenario: &mut Scenario, target: &Side<'_>) {
-    for (axis, role) in [(3, Role::A), (4, Role::B), (5, Role::C)] {
-        if target.control.letter(role, None).is_none() {
+    let lathe = target.control.machine() == Machine::Lathe;
+    let listed = |axis: Axis| target.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
+    for (axis, role, own) in
+        [(1, Role::Y, Axis::Y), (3, Role::A, Axis::A), (4, Role::B, Axis::B), (5, Role::C, Axis::C)]
+    {
+        let lacks = role != Role::Y && target.control.letter(role, None).is_none();
+        if lacks || lathe && !listed(own) {
             scenario.start[axis] = scenario.references[0][axis];
         }
     }

@@ -324,6 +324,7 @@ static MACHINE: LazyLock<Scenario> = LazyLock::new(|| {
         scenario.tools.insert(number, tool);
     }
     scenario.references[1] = far(-394.0, -91.0);
+    scenario.more_references = [far(-447.0, -83.0), far(-521.0, -67.0)];
     scenario
 });
 

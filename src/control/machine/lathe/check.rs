@@ -59,8 +59,16 @@ fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
         return Err(Stop::unnamed(format!("{role} in a block that makes no arc")));
     }
     let steps = command.words.iter().any(|(role, _)| role.is_step());
-    if steps && command.ops.iter().any(|op| matches!(op, Op::WriteWork | Op::LocalShift)) {
-        return Err(Stop::unnamed("increments of a zero"));
+    let by_mode = command.of(Group::Distance).map_or(machine.incremental, |op| op == Op::Incremental);
+    let places = TWINS.iter().any(|(place, _)| command.word(*place).is_some());
+    let unknown = |op: &Op| match op {
+        Op::LocalShift => steps || by_mode && places,
+        Op::WriteWork => steps,
+        Op::WriteTurret => by_mode && places,
+        _ => false,
+    };
+    if command.ops.iter().any(unknown) {
+        return Err(Stop::unnamed("increments of a zero or of a table"));
     }
     // Where a block cuts, C may be a chamfer; in rapid, in a drilling cycle or alone it is the axis (Q4).
     let drills = machine.cycle.is_some() || command.ops.iter().any(|op| op.is_cycle());

@@ -44,6 +44,15 @@ pub struct Turning {
     pub thread_angles: Option<Vec<f64>>,
     /// True where the machine's profile names a C axis.
     pub has_c: bool,
+    /// The axes that its profile lists, by their places in a position; X and Z where it lists none.
+    pub axes: Vec<usize>,
+}
+
+/// The places in a position of the axes that a profile lists; of X and Z where it lists none.
+fn axes(control: &Control) -> Vec<usize> {
+    let listed = control.profile().axes.iter().flatten();
+    let places: Vec<usize> = listed.map(|axis| axis.number() as usize - 1).collect();
+    if places.is_empty() { vec![0, 2] } else { places }
 }
 
 impl Turning {
@@ -97,6 +106,7 @@ impl Turning {
             thread_angles: answer(Question::ThreadAngles)
                 .filter(|list| !["any", "unknown"].contains(list))
                 .map(|list| list.split('.').filter_map(|angle| angle.parse().ok()).collect()),
+            axes: axes(control),
             has_c: control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&Axis::C)),
         }
     }

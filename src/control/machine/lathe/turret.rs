@@ -125,11 +125,11 @@ impl Machine {
         trace.rounded = self.off_by() + self.most_off(command, |_| true);
         for (role, value) in command.words.iter().copied() {
             let (state, adds) = match role {
-                Role::X => (Sys::LatheX, self.incremental),
+                Role::X => (Sys::LatheX, false),
                 Role::StepX => (Sys::LatheX, true),
-                Role::Y => (Sys::LatheY, self.incremental),
+                Role::Y => (Sys::LatheY, false),
                 Role::StepY => (Sys::LatheY, true),
-                Role::Z => (Sys::LatheZ, self.incremental),
+                Role::Z => (Sys::LatheZ, false),
                 Role::StepZ => (Sys::LatheZ, true),
                 Role::OffsetNose => (Sys::LatheRadius, false),
                 Role::OffsetTip => (Sys::LatheTip, false),

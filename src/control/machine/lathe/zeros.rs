@@ -5,7 +5,7 @@ use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
 
-/// A return without an axis: X and Z go home at once, where the control does so.
+/// A return without an axis: all axes that the profile lists, else X and Z, go home at once, where the control does so (Z2).
 pub fn without_axes(machine: &mut Machine, which: usize, trace: &mut Trace) -> Result<(), Stop> {
     if machine.rules.turning.two_blocks {
         return Err(Stop::unnamed("a return to the reference point without an axis"));
@@ -13,7 +13,7 @@ pub fn without_axes(machine: &mut Machine, which: usize, trace: &mut Trace) -> R
     trace.doubt("machine:lathe.home.without.axes");
     let home = machine.references[which];
     let mut to = machine.position;
-    for axis in [0, 2] {
+    for axis in machine.rules.turning.axes.clone() {
         to[axis] = home[axis];
         machine.round_home(axis);
     }

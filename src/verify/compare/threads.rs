@@ -1,0 +1,80 @@
+//! Passes of a thread over the way of the one before.
+//!
+//! Such a pass takes nothing off. Between the two the tool goes out along X, and along Z beside the part to where it began. Whether it goes in again along
+//! both axes at once, or along Z first, no source says of a cycle of many passes (docs/lathe.md P8), and where a conversion writes such passes by single ones
+//! it is Z first. So of that way only its first move counts, and moves along Z that follow one another are one.
+
+use super::observe::{Act, What};
+use super::paths::apart;
+use crate::control::trace::{EventKind, Position};
+
+/// How far the ways of two passes may lie apart to be one, millimetres.
+const NEAR: f64 = 1e-3;
+
+/// The places of X and Z in a position.
+const X: usize = 0;
+const Z: usize = 2;
+
+/// Leaves out how the tool comes from one such pass to the next.
+pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+    let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
+    // The last pass, and the place behind it.
+    let mut last: Option<(Position, Position, usize)> = None;
+    for act in acts {
+        match (&*act.what, last) {
+            (EventKind::Thread { from, to, .. }, before) => {
+                let (from, to) = (*from, *to);
+                let same =
+                    before.is_some_and(|(start, end, _)| apart(&start, &from).max(apart(&end, &to)) <= NEAR);
+                if let Some((_, end, behind)) = before.filter(|_| same)
+                    && beside(out.get(behind..).unwrap_or_default(), end, from)
+                {
+                    out.truncate(behind + 1);
+                }
+                out.push(act);
+                last = Some((from, to, out.len()));
+            }
+            (EventKind::Rapid { from, to }, Some((.., behind))) if out.len() > behind => {
+                match out.last_mut().and_then(|before| Some((along_z(&before.what, (from, to))?, before))) {
+                    Some((whole, before)) => before.what = What::other(whole),
+                    None => out.push(act),
+                }
+            }
+            (EventKind::Rapid { .. }, _) => out.push(act),
+            _ => {
+                last = None;
+                out.push(act);
+            }
+        }
+    }
+    out
+}
+
+/// True for moves out along X from the end of a pass, along Z, and in to the start of the next one.
+fn beside(moves: &[Act<'_>], end: Position, start: Position) -> bool {
+    let ways = moves.iter().map(|act| match &*act.what {
+        EventKind::Rapid { from, to } => Some((*from, *to)),
+        _ => None,
+    });
+    let Some(ways) = ways.collect::<Option<Vec<_>>>() else { return false };
+    let [(from, out), between @ .., (_, to)] = ways.as_slice() else { return false };
+    let only = |axis: usize, a: &Position, b: &Position| moves_along(a, b).is_none_or(|along| along == axis);
+    let goes_out = apart(from, &end) <= NEAR && only(X, from, out);
+    goes_out && between.iter().all(|(a, b)| only(Z, a, b)) && apart(to, &start) <= NEAR
+}
+
+/// The one move along Z that two in one direction are.
+fn along_z(before: &EventKind, (from, to): (&Position, &Position)) -> Option<EventKind> {
+    let EventKind::Rapid { from: first, to: there } = before else { return None };
+    let along = |a: &Position, b: &Position| moves_along(a, b) == Some(Z);
+    let goes_on = (there.0[Z] - first.0[Z]) * (to.0[Z] - from.0[Z]) > 0.0;
+    let one = apart(there, from) <= NEAR && along(first, there) && along(from, to) && goes_on;
+    one.then(|| EventKind::Rapid { from: *first, to: *to })
+}
+
+/// The axis that a move goes along, if that is one.
+fn moves_along(from: &Position, to: &Position) -> Option<usize> {
+    let mut axes = (0..from.0.len()).filter(|axis| (from.0[*axis] - to.0[*axis]).abs() > NEAR);
+    let axis = axes.next();
+    if axes.next().is_some() { Some(usize::MAX) } else { axis }
+}
