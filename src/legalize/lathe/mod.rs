@@ -12,6 +12,7 @@ pub mod faces;
 pub mod hole_codes;
 pub mod hole_returns;
 pub mod holes;
+pub mod inch_leads;
 pub mod interpolations;
 pub mod lone_steps;
 pub mod modes;
