@@ -103,6 +103,8 @@ super::vocabulary! {
         HolesCount = "holes.count",
         /// Lead of a thread.
         Lead = "lead",
+        /// Threads an inch, in place of the lead.
+        ThreadsPerInch = "threads.per.inch",
         /// Angle of the spindle at which a thread begins, thousandths of a degree.
         ThreadStart = "thread.start",
         /// By how much the lead of a thread grows each turn.

@@ -39,6 +39,7 @@ pub const ALL: &[(&str, &str)] = &[
     ),
     ("machine:lathe.face.plane", "a code of a plane in polar interpolation does nothing"),
     ("machine:lathe.face.rapid", "a rapid move in polar interpolation goes straight in its plane"),
+    ("machine:lathe.feed.after.threads", "a lead by threads an inch stays in force as the feed"),
     ("machine:lathe.groove.moves", "the cycles of grooves and pecks move as docs/lathe.md says"),
     ("machine:lathe.hole.moves", "the drilling cycles of a lathe move as docs/lathe.md says"),
     ("machine:lathe.home.without.axes", "a return without axes takes all axes home at once"),

@@ -42,9 +42,27 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
         // The lead of a thread is its feed, and stays in force as the feed.
         machine.feed = lead * machine.unit();
     }
+    if let Some(count) = command.word(Role::ThreadsPerInch).filter(|count| *count > 0.0) {
+        machine.feed = INCH / count;
+    }
+    per_inch(machine, command, trace);
     if let Some(feed) = command.word(Role::Feed) {
         let scale = if machine.inch && machine.feed_mode != FeedMode::Inverse { INCH } else { 1.0 };
         machine.feed = feed * scale;
+    }
+}
+
+/// Notes a cut by the feed that threads an inch have left (M4).
+fn per_inch(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    let says = |roles: &[Role]| roles.iter().any(|role| command.word(*role).is_some());
+    if says(&[Role::Feed, Role::Lead]) {
+        machine.lathe.per_inch = false;
+    }
+    machine.lathe.per_inch |= says(&[Role::ThreadsPerInch]);
+    let motion = command.of(Group::Motion).unwrap_or(machine.motion);
+    let cuts = matches!(motion, Op::Linear | Op::ArcCw | Op::ArcCcw) && command.has_axes();
+    if machine.lathe.per_inch && cuts {
+        trace.doubt("machine:lathe.feed.after.threads");
     }
 }
 

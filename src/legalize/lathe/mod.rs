@@ -13,6 +13,7 @@ pub mod faces;
 pub mod hole_codes;
 pub mod hole_returns;
 pub mod holes;
+pub mod inch_leads;
 pub mod interpolations;
 pub mod lone_passes;
 pub mod modes;

@@ -6,8 +6,8 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     bare_starts, contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns,
-    holes, interpolations, lone_passes, modes, roughing, run_outs, steps, tap_feeds, thread_ways, threads,
-    written_corners, x_counts, zeros,
+    holes, inch_leads, interpolations, lone_passes, modes, roughing, run_outs, steps, tap_feeds, thread_ways,
+    threads, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -113,6 +113,9 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(cycle_words::concerns)
     .needs(&["steps", "lathe-lengths", "run-outs"]),
+    Pass::edits("inch-leads", "threads an inch become leads", inch_leads::run)
+        .when(inch_leads::concerns)
+        .needs(&["units"]),
     Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
         .when(steps::letters_to_mode)
         .needs(&["beside-moves", "holes", "lathe-cycles"]),

@@ -37,6 +37,9 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
     if command.has(Op::Finish) && command.has_axes() {
         return Err(Stop::unnamed("an axis word beside the finishing of a contour"));
     }
+    if command.word(Role::ThreadsPerInch).is_some_and(|count| count <= 0.0) {
+        return Err(Stop::unnamed("threads an inch that are none"));
+    }
     letters(machine, command)?;
     tool_word(command)?;
     arcs(machine, command, trace)

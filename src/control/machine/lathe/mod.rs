@@ -101,6 +101,8 @@ pub(super) struct Lathe {
     pub hole_by_mode: Option<bool>,
     /// The last time of a wait, seconds.
     pub last_dwell: Option<f64>,
+    /// True where threads an inch said the feed last.
+    pub per_inch: bool,
     /// True after a cycle, until a code of motion stands in a block.
     pub after_cycle: bool,
     /// The face or the side that is milled while C follows.

@@ -28,8 +28,7 @@ pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
         Op::FaceBoreStop | Op::SideBoreStop => return Err((STOPS, STOPS_HELP)),
         Op::FaceBoreDwell | Op::SideBoreDwell => {
             if hole.begins && hole.nc.word(Role::CycleDwell).is_none() {
-                let last = hole.waits.last().ok_or((WAIT, "write P into this block"))?;
-                hole.nc.items.push(NcItem::Word(Role::CycleDwell, last));
+                last_wait(hole)?;
             }
             hole.write_if_begun(if hole.side() { Op::SideBore } else { Op::FaceBore });
         }
@@ -102,6 +101,19 @@ fn plane(hole: &mut Hole<'_>) -> Result<(), Refused> {
     Ok(())
 }
 
+/// Writes the wait that was told last; where the P of a contour came after it, that is asked.
+fn last_wait(hole: &mut Hole<'_>) -> Result<(), Refused> {
+    let last = hole.waits.last().ok_or((WAIT, "write P into this block"))?;
+    hole.nc.items.push(NcItem::Word(Role::CycleDwell, last));
+    if hole.waits.is_doubted() {
+        hole.asked.push((CONTOUR, "write P into this block", hole.op, false));
+    }
+    Ok(())
+}
+
+const CONTOUR: &str = "the wait of this hole is the last P that was a wait, and the cycle of a contour came after it: its P, the number of a block, is taken to be \
+                       none";
+
 /// Drilling: the wait and the peck where the target needs them told.
 fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     let waits = matches!(op, Op::FaceDrillDwell | Op::SideDrillDwell);
@@ -110,8 +122,7 @@ fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     let earlier = hole.all.other_waits || !hole.all.dwells.is_empty();
     if hole.begins && told.is_none() {
         if waits || pecks && earlier && !hole.waits.none_yet() {
-            let last = hole.waits.last().ok_or((WAIT, "write P into this block"))?;
-            hole.nc.items.push(NcItem::Word(Role::CycleDwell, last));
+            last_wait(hole)?;
         }
         no_wait(hole);
     }

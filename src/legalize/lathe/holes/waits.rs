@@ -17,12 +17,17 @@ pub(super) struct Waits {
     roles: Rc<BTreeSet<Role>>,
     /// True where no program of the library calls another.
     alone: bool,
+    /// True where the cycle of a contour with its P came after the wait that is known.
+    doubted: bool,
 }
 
 impl Waits {
     /// What P is on the source, and whether programs of the library hand it on.
     pub fn of(source: &Control, module: &Module) -> Self {
-        let of_row = |row: &crate::dialect::CodeMeaning| row.words.get("P").copied();
+        // P of the cycles of contours names a block, and is no wait (docs/lathe.md S10).
+        let of_row = |row: &crate::dialect::CodeMeaning| {
+            row.words.get("P").copied().filter(|role| *role != Role::ContourFirst)
+        };
         let roles = Rc::new(source.dialect().codes.iter().filter_map(of_row).collect());
         let mut blocks = module.programs.iter().flat_map(|program| &program.blocks);
         let alone = !blocks.any(|block| matches!(block.term.kind, TermKind::Call { .. }));
@@ -45,6 +50,11 @@ impl Waits {
     /// The wait, where it is known.
     pub fn last(&self) -> Option<Expr> {
         self.last.map(Expr::Number)
+    }
+
+    /// True where a block's number stood as P after the wait that is known.
+    pub fn is_doubted(&self) -> bool {
+        self.doubted
     }
 
     /// True where no code of the run had a P.
@@ -73,7 +83,9 @@ impl Waits {
             NcItem::Code(..) => true,
             NcItem::Op(_) => false,
         });
+        self.doubted |= self.last.is_some() && nc.word(Role::ContourFirst).is_some();
         if waits.is_some() || other {
+            self.doubted = false;
             let known = waits.flatten().filter(|_| stmt.site.skip.is_none());
             self.last = known.map(|ms| (ms * 1e6).round() / 1e6);
             self.none_yet = false;

@@ -151,6 +151,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             cycle: Cycle::default(),
             place: Place::keeping_level(),
             speed: None,
+            stands: false,
             waits: waits.begin(program),
         };
         for (at, ((block, mut state), straight)) in
@@ -160,13 +161,19 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 walk.cycle = Cycle::default();
                 walk.place.forget();
                 walk.speed = None;
+                walk.stands = false;
                 walk.waits.come_in(at == 0);
             }
             let mut out = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::take(&mut block.stmts) {
                 let span = stmt.site.span;
                 if !by_steps {
-                    drop_rigid(&mut stmt, context.target);
+                    // A speed that is said again would say of a spindle that stands how fast it turns.
+                    let again = walk.stands && state.op(Group::Spindle).is_none();
+                    drop_rigid(&mut stmt, context.target, walk.speed.filter(|_| again));
+                    if again && is_empty(&stmt) {
+                        continue;
+                    }
                 }
                 match walk.stmt(&stmt, &mut state, (&all, context.target, by_steps)) {
                     None => out.push(stmt),
@@ -198,16 +205,25 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     }
 }
 
-/// Takes away what makes taps rigid, for a target whose taps always are; the speed beside it stays.
-fn drop_rigid(stmt: &mut Stmt, target: &Control) {
+/// Takes away what makes taps rigid, for a target whose taps always are; the speed beside it stays, unless it is said `again`.
+fn drop_rigid(stmt: &mut Stmt, target: &Control, again: Option<f64>) {
     if !stmt.kind.has_op(Op::RigidTaps) || target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some() {
         return;
     }
     let StmtKind::Nc(nc) = &mut stmt.kind else { return };
-    nc.items.retain(|item| *item != NcItem::Op(Op::RigidTaps));
+    nc.items.retain(|item| match item {
+        NcItem::Word(Role::Speed, speed) => again.is_none() || speed.constant() != again,
+        item => *item != NcItem::Op(Op::RigidTaps),
+    });
     if nc.items.is_empty() {
         stmt.kind = StmtKind::Comment;
     }
+}
+
+/// True of a block that says nothing, and that no jump can name.
+fn is_empty(stmt: &Stmt) -> bool {
+    let site = &stmt.site;
+    matches!(stmt.kind, StmtKind::Comment) && site.comments.is_empty() && site.sequence.get().is_none()
 }
 
 /// True where another code than that of a hole may have its letter: calls, waits, contours, threads. What such a code becomes on the target may have
@@ -251,6 +267,8 @@ struct Walk {
     place: Place,
     /// The last speed.
     speed: Option<f64>,
+    /// True where the spindle that turns the part was stopped, and taps of live tools alone came since.
+    stands: bool,
     waits: Waits,
 }
 
@@ -278,6 +296,11 @@ impl Walk {
     ) -> Option<Made> {
         let (before, spindle) = (state.op(Group::Cycle), state.op(Group::Spindle));
         state.step(stmt);
+        let turns =
+            |nc: &Nc| nc.ops().any(|op| op.group() == Group::Spindle) || nc.word(Role::Speed).is_some();
+        let says = stmt.kind.nc().is_some_and(turns);
+        let stands = spindle == Some(Op::SpindleStop) || self.stands && spindle.is_none();
+        self.stands = stands && !says;
         let waits = self.waits.clone();
         self.waits.take(stmt);
         self.place.enter(stmt);
@@ -291,6 +314,7 @@ impl Walk {
                 let calls = matches!(kind, StmtKind::ModalCall(_)) && self.takes_wait(before, all);
                 self.cycle = Cycle::default();
                 self.speed = None;
+                self.stands = false;
                 return calls.then_some(Err((CALLS, CALLS_HELP)));
             }
         };
@@ -313,7 +337,7 @@ impl Walk {
         let turning = Turning {
             speed: self.speed.filter(|speed| *speed > 0.0 && !surface),
             by_turn: state.op(Group::FeedMode) == Some(Op::FeedPerTurn),
-            stands: all.stands || spindle == Some(Op::SpindleStop),
+            stands: all.stands || stands,
         };
         if before.is_none() {
             return Some(Err((UNKNOWN, "write G80, or G0 and a place, before the cycle")));
@@ -343,6 +367,8 @@ impl Walk {
             Err(refused) => return Some(Err(refused)),
         };
         let (nc, asked, lead) = (hole.nc, hole.asked, hole.before);
+        // The spindle that turns the part is after a tap of a live tool as before it (docs/lathe.md Q11), after others it may turn.
+        self.stands &= self.cycle.written.is_none_or(|op| !op.is_tap() || op.is_live_tap());
         let again = Nc { items: nc.items.iter().filter(|item| says_again(item)).cloned().collect() };
         let first = Stmt { kind: StmtKind::Nc(nc), site: stmt.site.clone() };
         let site = crate::ir::SourceInfo { span: stmt.site.span, ..Default::default() };
