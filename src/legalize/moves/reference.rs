@@ -2,18 +2,18 @@
 //!
 //! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
-//! axes the machine has is taken from the moves of the library: X, Y (on a lathe only where it is moved), Z and, on a mill, the rotary ones it moves; of those the target
-//! has no letter for, the ones that the program itself moves.
+//! axes the machine has its profile says, and the moves of the library: X, Y (on a lathe only where it is moved), Z and, on a mill,
+//! the rotary ones it moves. Of those that the target does not have, the ones that the program itself moves.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Machine, Question};
+use crate::dialect::{Axis, Control, Machine, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::lathe::steps::has_letters;
 use crate::legalize::{Context, replace_statements};
 
-const ROTARY: &str = "this return takes the rotary axes of the source along, and the target has none of their letters: make sure that they \
-                      stand at their reference position, or that the target's machine has no such axes";
+const ROTARY: &str = "this return takes all axes of the source along, and the target does not have all of the rotary ones: make sure that \
+                      they stand at their reference position, or that the target's machine has no such axes";
 
 /// Names the axes of returns that name none.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -37,28 +37,34 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return doubt(module, there, context);
     }
     let rotary = [Role::A, Role::B, Role::C];
+    let further = [Role::A, Role::B, Role::C, Role::U, Role::V, Role::W];
     // A lathe sends X and Z home, and C by its own word (docs/lathe.md Z2).
     let turns = context.source.machine() == Machine::Lathe;
-    let moved = rotary.into_iter().filter(|role| !turns && ncs().any(|nc| nc.word(*role).is_some()));
+    let moves = |role: &Role| rotary.contains(role) && ncs().any(|nc| nc.word(*role).is_some());
+    let source = context.source;
+    let moved =
+        further.into_iter().filter(|role| !turns && (has_axis(source, *role) == Some(true) || moves(role)));
     let has_y = !turns || ncs().any(|nc| nc.word(Role::Y).is_some() || nc.word(Role::StepY).is_some());
     let linear = [Role::X, Role::Y, Role::Z].into_iter().filter(|role| *role != Role::Y || has_y);
     let axes: Vec<Role> = linear.chain(moved).collect();
     let letters = has_letters(context.source);
-    // What the target has no letter for is named where the program moves it, and refused there.
+    // What the target does not have is named where the program moves it, and refused there.
     let target = context.target;
+    let taken = |role: Role| target.letter(role, None).is_some() && has_axis(target, role) != Some(false);
     let own: Vec<Vec<Role>> = module
         .programs
         .iter()
         .map(|program| {
             let ncs = || program.blocks.iter().flat_map(|b| &b.stmts).filter_map(|stmt| stmt.kind.nc());
             let named = |role: &Role| {
-                !rotary.contains(role)
-                    || target.letter(*role, None).is_some()
-                    || ncs().any(|nc| nc.word(*role).is_some())
+                !further.contains(role) || taken(*role) || ncs().any(|nc| nc.word(*role).is_some())
             };
             axes.iter().copied().filter(named).collect()
         })
         .collect();
+    // Without a list of its axes the source may have each of the rotary ones.
+    let may_have = |role: &Role| axes.contains(role) || rotary.contains(role) && has_axis(source, *role).is_none();
+    let left_out = !turns && further.iter().any(|role| may_have(role) && !taken(*role));
     let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
@@ -86,7 +92,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 ),
             };
             context.add(index, Diagnostic::new(code, span, what).asked_once());
-            if !turns && rotary.into_iter().any(|role| target.letter(role, None).is_none()) {
+            if left_out {
                 context.add_once(
                     index,
                     ROTARY,
@@ -100,6 +106,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
         }
     });
+}
+
+/// Whether a machine has an axis, if its profile lists them.
+fn has_axis(control: &Control, role: Role) -> Option<bool> {
+    let number = |axis: &Axis| Some(axis.number()) == role.axis_number();
+    Some(control.profile().axes.as_ref()?.iter().any(number))
 }
 
 /// What a return without axes does on the source is not known; on the target it may move all of them.

@@ -176,8 +176,10 @@ impl Verifier<'_, '_> {
 
 /// Rotary axes that the target does not have stand at their reference position, where a return of all axes leaves them.
 fn at_reference(scenario: &mut Scenario, target: &Side<'_>) {
-    for (axis, role) in [(3, Role::A), (4, Role::B), (5, Role::C)] {
-        if target.control.letter(role, None).is_none() {
+    let listed = target.control.profile().axes.as_ref();
+    let lacks = |number: u32| listed.is_some_and(|axes| axes.iter().all(|axis| axis.number() != number));
+    for (axis, role, number) in [(3, Role::A, 4), (4, Role::B, 5), (5, Role::C, 6)] {
+        if target.control.letter(role, None).is_none() || lacks(number) {
             scenario.start[axis] = scenario.references[0][axis];
         }
     }
