@@ -18,7 +18,9 @@ use crate::text::Span;
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     are_mills(context)
         && (features.any_op(|op| op.group() == Group::LengthComp)
-            || [Role::A, Role::B, Role::C, Role::LengthOffset].into_iter().any(|role| features.role(role)))
+            || [Role::A, Role::B, Role::C, Role::LengthOffset, Role::RadiusOffset]
+                .into_iter()
+                .any(|role| features.role(role)))
 }
 
 /// True for two mills that are not one and the same.
@@ -41,8 +43,16 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             context.rests_on_target(index, stmt.site.span, Question::LengthMoves);
         }
         rotary(nc, after, index, stmt.site.span, context);
+        if nc.word(Role::RadiusOffset).is_some() && context.target.is(Question::RadiusByLengthWord) {
+            let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, RADIUS_BY_H);
+            context.add_once(index, RADIUS_BY_H, finding.with_help(RADIUS_BY_D));
+        }
     });
 }
+
+const RADIUS_BY_H: &str = "the number of a cutter radius is written with D, and the target takes it from H";
+
+const RADIUS_BY_D: &str = "set parameter 5001.2 of the target to 0, and say so in its profile";
 
 /// True where a block has something to say of the tool length.
 pub(in crate::legalize) fn names_length(nc: &Nc) -> bool {
@@ -154,7 +164,7 @@ fn degrees(value: &Expr, control: &Control) -> Option<f64> {
 
 /// Asks a question, first of the control whose table has no answer; refuses where the answers are known to differ. A control
 /// whose table is silent is like most others.
-pub(super) fn rests(question: Question, index: usize, span: Span, context: &mut Context<'_>) {
+pub(in crate::legalize) fn rests(question: Question, index: usize, span: Span, context: &mut Context<'_>) {
     let open = |control: &Control| control.behaviour(question).is_some_and(|row| row.value == "unknown");
     let [ours, theirs] =
         [context.source, context.target].map(|control| control.behaviour(question).is_some());

@@ -63,7 +63,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         })
         .collect();
     // Without a list of its axes the source may have each of the rotary ones.
-    let may_have = |role: &Role| axes.contains(role) || rotary.contains(role) && has_axis(source, *role).is_none();
+    let may_have =
+        |role: &Role| axes.contains(role) || rotary.contains(role) && has_axis(source, *role).is_none();
     let left_out = !turns && further.iter().any(|role| may_have(role) && !taken(*role));
     let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
