@@ -69,7 +69,6 @@ pub const ALL: &[(&str, &str)] = &[
     ),
     ("machine:lathe.tool.word.short", "a tool word of one or two digits is an offset alone"),
     ("machine:m99.in.subroutine", "M99 in a subroutine returns from it"),
-    ("machine:machine.coordinates.incremental", "machine coordinates are absolute in incremental mode too"),
     ("machine:offset.value.kept", "an offset that is set without a value keeps its earlier value"),
     ("machine:output.half", "a half that output rounds to its places goes away from 0"),
     ("machine:overflow", "a result that is not a number is an alarm"),
@@ -82,7 +81,6 @@ pub const ALL: &[(&str, &str)] = &[
         "the way back from the reference position goes by the point of the last return",
     ),
     ("machine:return.without.call", "a return without a call ends the program"),
-    ("machine:rotation.incremental", "the centre of a rotation counts from the tool in incremental mode"),
     (
         "machine:shape.from.setting",
         "a rotation without its angle turns by nothing, and a scaling without its factor keeps the size",
@@ -92,6 +90,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:sub.area.end.again", "a second end of the subroutines ends the program"),
     ("machine:test.of.code", "a test of a code asks what is in force in its group"),
     ("machine:tool.zero", "the tool in the spindle stays active when tool 0 takes its length away"),
+    ("machine:word.twice", "of an axis word that stands twice in its block the later one counts"),
     ("machine:word.without.meaning", "a word that has no meaning on the control does nothing"),
     (
         "numbers:bare_feed",

@@ -272,6 +272,7 @@ questions! {
     RotationRunsCycle "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place", if "op:rotate.on";
     RotationDirection "rotation.direction" OneOf(&["ccw", "cw", "unknown"]), "which way a positive rotation turns", if "op:rotate.on";
     RotationIncrements "rotation.increments" OneOf(&["tool", "unknown"]), "the centre of a rotation for increments before the first absolute word after its block: where the tool is", if "op:rotate.on";
+    RotationCentreIncremental "rotation.centre.incremental" OneOf(&["tool", "zero", "unknown"]), "from where the centre of a rotation counts under G91: from the tool, or from the zero as under G90", if "said";
     RotationAdds "rotation.adds" YES, "the angle of a rotation under G91 is added to the angle before it", if "op:rotate.on";
     MCodesPerBlock "m.codes.per.block" OneOf(&["1", "3", "any", "unknown"]), "how many M codes a block may have";
     MForwardActs "m.forward.acts" WHEN, "when the code that turns the spindle clockwise acts, beside a move", if "said";
@@ -298,6 +299,7 @@ questions! {
     ReferenceLength "reference.length" OneOf(&["kept", "cancelled", "cancelled.along", "unknown"]), "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves", if "op:reference.return";
     MachineMoveRapid "machine.move.rapid" YES, "a move in machine coordinates is a rapid, whatever interpolation is in force", if "said";
     UnitsAgree "units.agree" YES, "a code for another unit than the control is set to is an alarm", if "said";
+    MachineUnderIncremental "machine.under.incremental" OneOf(&["place", "increments", "ignored", "unknown"]), "what the words of a move in machine coordinates are under G91: places as under G90, increments, or nothing, since the code is ignored", if "said";
     MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";
     LengthMoves "length.moves" YES, "a code of the tool length without a word of its axis moves the axis by the length", if "said";
     ChangeRetracts "change.retracts" YES, "a tool change takes Z to the tool change position first, wherever the program left it", if "said";
@@ -330,6 +332,7 @@ questions! {
     LengthActiveImmediately "length.active.immediately" YES, "a tool length that is written while it is in force counts from the next block on, before its number is named again", if "said";
     RadiusActiveImmediately "radius.active.immediately" YES, "a cutter radius that is written while it is in force counts from the next block on, before its number is named again", if "said";
     RadiusOffsetActiveTool "radius.offset.active.tool" YES, "cutter compensation without an offset word takes the active tool's", if "said";
+    RadiusByLengthWord "radius.by.length.word" YES, "the word of the tool length beside a code of the cutter radius names that radius, where the block has no number of a radius", if "said";
     LengthWordPicksRadius "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too", if "said";
     LengthNeverNamed "length.never.named" OneOf(&["zero", "tool", "unknown"]), "the tool length that its code takes where no number was ever named: none, or that of the tool in the spindle", if "op:length.plus";
     RadiusStartsOnArc "radius.starts.on.arc" YES, "cutter compensation may begin and end on an arc", if "said";

@@ -135,3 +135,26 @@ pub(super) fn sin_cos(degrees: f64) -> (f64, f64) {
         _ => turn.to_radians().sin_cos(),
     }
 }
+
+/// What a move in machine coordinates does under incremental coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnderIncremental {
+    /// It goes to its place, as under absolute ones.
+    Place,
+    /// It goes by its words from where it is.
+    Increments,
+    /// Nothing.
+    Ignored,
+}
+
+impl UnderIncremental {
+    /// By its name in the tables.
+    pub fn read(value: &str) -> Option<Self> {
+        match value {
+            "place" => Some(Self::Place),
+            "increments" => Some(Self::Increments),
+            "ignored" => Some(Self::Ignored),
+            _ => None,
+        }
+    }
+}

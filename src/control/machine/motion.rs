@@ -1,6 +1,7 @@
 //! Moves.
 
 use super::command::is_rotary;
+use super::frame::UnderIncremental;
 use super::tooling::LostBy;
 use super::{Command, Machine, arc, cycle, holes, inverse, lathe, returns};
 use crate::canon::{Group, Op, Role};
@@ -198,11 +199,14 @@ fn takes_axes(command: &Command) -> bool {
 
 fn in_machine_coordinates(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let mut to = machine.position;
+    let by_increments = machine.incremental && command.has_axes();
+    let under = by_increments.then(|| machine.rules.under_incremental.ask(trace));
     for (axis, value) in machine.named_axes(command) {
-        to[axis] = value;
-    }
-    if machine.incremental && command.has_axes() {
-        trace.doubt("machine:machine.coordinates.incremental");
+        to[axis] = match under {
+            None | Some(UnderIncremental::Place) => value,
+            Some(UnderIncremental::Increments) => to[axis] + value,
+            Some(UnderIncremental::Ignored) => return,
+        };
     }
     let named = machine.named_axes(command);
     machine.may_lose_length(LostBy::MachineMove, named.iter().any(|(axis, _)| *axis == LENGTH_AXIS));

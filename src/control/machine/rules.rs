@@ -1,5 +1,6 @@
 //! The facts of a control that the machine acts by, read once.
 
+use super::frame::UnderIncremental;
 use super::lathe::Turning;
 use crate::canon::{Act, Auxiliary, Op, Pause, Running, Sys};
 use crate::control::trace::Trace;
@@ -148,6 +149,9 @@ pub struct Rules {
     pub still_blocks: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
+    pub under_incremental: Fact<UnderIncremental>,
+    pub centre_from_tool: Fact<bool>,
+    pub radius_by_length_word: Fact<bool>,
     pub length_after_reference: Fact<LengthAfter>,
     pub length_after_machine_move: Fact<LengthAfter>,
     /// A move in machine coordinates is rapid under any interpolation.
@@ -302,6 +306,17 @@ impl Rules {
                 .or_silent(control, Question::RadiusStillBlocks),
             end_cancels_length: yes(control, Question::EndCancelsLength, false),
             reference_takes_all: yes(control, Question::ReferenceAllAxes, false),
+            under_incremental: fact(
+                control,
+                Question::MachineUnderIncremental,
+                UnderIncremental::read,
+                UnderIncremental::Place,
+            )
+            .or_silent(control, Question::MachineUnderIncremental),
+            centre_from_tool: fact(control, Question::RotationCentreIncremental, word("tool", "zero"), true)
+                .or_silent(control, Question::RotationCentreIncremental),
+            radius_by_length_word: yes(control, Question::RadiusByLengthWord, false)
+                .or_silent(control, Question::RadiusByLengthWord),
             length_after_reference: fact(control, Question::ReferenceLength, length_after, LengthAfter::Kept),
             length_after_machine_move: fact(
                 control,

@@ -134,8 +134,9 @@ fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let before = machine.frame.rotation.take().map(|turned| turned.degrees);
     machine.fresh_rotation = command.has_axes();
     let mut centre = machine.frame.program(&machine.position);
+    let from_tool = machine.incremental && command.has_axes() && machine.rules.centre_from_tool.ask(trace);
     for (axis, value) in machine.named_axes(command) {
-        centre[axis] = if machine.incremental { centre[axis] + value } else { value };
+        centre[axis] = if from_tool { centre[axis] + value } else { value };
     }
     let [bare_angle, _] = machine.rules.bare_shapes;
     let angle = command.word(Role::Angle).or(bare_angle);
@@ -148,7 +149,6 @@ fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         if let Some(before) = before.filter(|_| machine.rules.rotation_adds.ask(trace)) {
             degrees += before;
         }
-        trace.doubt("machine:rotation.incremental");
     }
     let centre = (centre[first], centre[second]);
     machine.frame.rotation = Some(Rotation { axes: (first, second), centre, degrees });

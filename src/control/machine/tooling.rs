@@ -10,9 +10,21 @@ use crate::control::trace::{EventKind, Side, Told, Trace};
 /// Takes the codes and words of compensation.
 pub(super) fn compensation(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     if compensates(command) {
-        length(machine, command, trace);
-        radius(machine, command, trace);
+        let by_length = length_word_is_radius(machine, command, trace);
+        if !by_length {
+            length(machine, command, trace);
+        }
+        radius(machine, command, by_length, trace);
     }
+}
+
+/// True where the word of the tool length names the cutter radius: beside its code, where nothing else names one.
+fn length_word_is_radius(machine: &Machine, command: &Command, trace: &mut Trace) -> bool {
+    use Op::{LengthMinus, LengthOff, LengthPlus};
+    let begins = command.has(Op::RadiusLeft) || command.has(Op::RadiusRight);
+    let of_length = [LengthPlus, LengthMinus, LengthOff].into_iter().any(|op| command.has(op));
+    let alone = command.word(Role::LengthOffset).is_some() && command.word(Role::RadiusOffset).is_none();
+    begins && !of_length && alone && machine.rules.radius_by_length_word.ask(trace)
 }
 
 /// True where a block has a code or a word of compensation: most have none.
@@ -141,7 +153,7 @@ fn apply_length(machine: &mut Machine, trace: &mut Trace) {
     trace.push(EventKind::ToolLength { offset, value });
 }
 
-fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+fn radius(machine: &mut Machine, command: &Command, by_length: bool, trace: &mut Trace) {
     let side = command.ops.iter().rev().find_map(|op| match op {
         Op::RadiusOff => Some(Side::Off),
         Op::RadiusLeft => Some(Side::Left),
@@ -150,7 +162,8 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     });
     let with_length = command.number(Role::LengthOffset).filter(|_| machine.rules.length_picks_radius.peek());
     let with_length = with_length.filter(|_| command.word(Role::RadiusOffset).is_none());
-    if let Some(number) = command.number(Role::RadiusOffset).or(with_length) {
+    let own = if by_length { Role::LengthOffset } else { Role::RadiusOffset };
+    if let Some(number) = command.number(own).or(with_length) {
         machine.radius_offset = number;
         machine.radius_with_length = with_length.is_some();
     } else if side.is_some_and(|side| side != Side::Off) && machine.rules.cutter_takes_tool.peek() {
@@ -158,7 +171,7 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         machine.active_tool_asked(trace);
         machine.radius_offset = machine.tool as u32;
     }
-    let named = command.word(Role::RadiusOffset).is_some() || with_length.is_some();
+    let named = command.word(own).is_some() || with_length.is_some();
     let renewed = named && machine.side != Side::Off;
     if let Some(side) = side.filter(|_| machine.rules.lathe) {
         return super::lathe::turret::nose(machine, side, trace);

@@ -7,7 +7,7 @@ use crate::canon::{Group, Op, Pause, Role};
 use crate::control::machine::Command;
 use crate::control::outcome::Stop;
 use crate::control::session::Halt;
-use crate::control::trace::EventKind;
+use crate::control::trace::{EventKind, Trace};
 use smallvec::SmallVec;
 
 impl<'c> Runner<'c> {
@@ -180,7 +180,7 @@ impl<'c> Runner<'c> {
                     {
                         command.ops.push(op);
                     }
-                    command.words.push((role, value));
+                    push_word(&mut command, role, value, &mut self.session.trace);
                 }
                 None if flow => {}
                 // The code is another one without it: `G5.1 Q1`.
@@ -343,4 +343,13 @@ fn keeps_axes(op: Op) -> bool {
             | Pole
             | Dwell
     )
+}
+
+/// Takes a word; of an axis that stands twice in its block the later word counts.
+fn push_word(command: &mut Command, role: Role, value: f64, trace: &mut Trace) {
+    if role.is_axis() && command.word(role).is_some() {
+        trace.doubt("machine:word.twice");
+        command.words.retain(|(other, _)| *other != role);
+    }
+    command.words.push((role, value));
 }

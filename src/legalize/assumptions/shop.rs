@@ -19,7 +19,9 @@ use crate::text::Span;
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     are_mills(context)
         && (features.any_op(|op| op.group() == Group::LengthComp)
-            || [Role::A, Role::B, Role::C, Role::LengthOffset].into_iter().any(|role| features.role(role)))
+            || [Role::A, Role::B, Role::C, Role::LengthOffset, Role::RadiusOffset]
+                .into_iter()
+                .any(|role| features.role(role)))
 }
 
 /// True for two mills that are not one and the same.
@@ -40,6 +42,10 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let told = context.target.behaviour(Question::LengthMoves).is_some_and(|row| row.value != "unknown");
         if told && nc.has(Op::MachineOnce) && nc.ops().any(|op| op.group() == Group::LengthComp) {
             context.rests_on_target(index, stmt.site.span, Question::LengthMoves);
+        }
+        if nc.word(Role::RadiusOffset).is_some() && context.target.is(Question::RadiusByLengthWord) {
+            let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, RADIUS_BY_H);
+            context.add_once(index, RADIUS_BY_H, finding.with_help(RADIUS_BY_D));
         }
     });
     let turns = |nc: &Nc| AXES.iter().any(|role| nc.word(*role).is_some());
@@ -63,6 +69,10 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         }
     }
 }
+
+const RADIUS_BY_H: &str = "the number of a cutter radius is written with D, and the target takes it from H";
+
+const RADIUS_BY_D: &str = "set parameter 5001.2 of the target to 0, and say so in its profile";
 
 /// True where a block has something to say of the tool length.
 pub(in crate::legalize) fn names_length(nc: &Nc) -> bool {
@@ -182,7 +192,7 @@ const FEEDS: &str = "the feed per minute of this rotary axis is degrees on one o
 
 /// Asks a question, first of the control whose table has no answer; refuses where the answers are known to differ. A control
 /// whose table is silent is like most others.
-pub(super) fn rests(question: Question, index: usize, span: Span, context: &mut Context<'_>) {
+pub(in crate::legalize) fn rests(question: Question, index: usize, span: Span, context: &mut Context<'_>) {
     let open = |control: &Control| control.behaviour(question).is_some_and(|row| row.value == "unknown");
     let [ours, theirs] =
         [context.source, context.target].map(|control| control.behaviour(question).is_some());

@@ -56,7 +56,7 @@ pub fn chain(module: &mut Module, context: &mut Context<'_>) {
 /// the block of that number, and goes on where it is 0. Side conditions: every caller is in the
 /// library; a call is not repeated, for such a return ends its repeats. A caller that lacks the number
 /// goes on after the call where the source would alarm. A program that nothing calls is a main program, in which
-/// the return is a jump.
+/// the return is a jump; so is one that only a call by an unknown number might run, from a program without such a block.
 pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
     if context.target.statement("return.to.sequence").is_some() && !context.target.is(Question::M99PJumpsHere)
     {
@@ -64,13 +64,11 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
     }
     let mut numbers: BTreeMap<ProgramName, Vec<u32>> = BTreeMap::new();
     let register = Var { class: Class::Register, number: RETURN_TO };
-    let called = called(module);
+    let Callers { called, guessed } = Callers::of(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let inside = subroutines_that_return_to(program);
-        let main = inside.is_empty()
-            && called
-                .as_ref()
-                .is_some_and(|all| !program.name.as_ref().is_some_and(|name| all.contains(name)));
+        let main = inside.is_empty() && !program.name.as_ref().is_some_and(|name| called.contains(name));
+        let guess = guessed.get(&index);
         for span in inside {
             let why = "a subroutine inside the program returns to a block by its number: the target cannot";
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
@@ -82,14 +80,18 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
             let span = block.term.site.span;
             if let Some(to) = wanted.constant().and_then(|number| own.get(&(number as u32))) {
                 block.term.kind = TermKind::Jump(*to);
-                let why =
-                    "nothing in the library calls this program: as a main program it goes on at that block";
-                let finding = Diagnostic::new(Code::Conditional, span, why);
-                context.add(index, finding.assuming(Predicate::Main));
+                let both = guess
+                    .is_some_and(|labels| wanted.constant().is_some_and(|n| labels.contains(&(n as u32))));
+                let finding = match guess {
+                    _ if both => Diagnostic::new(Code::NoEquivalent, span, EITHER).with_help(EITHER_HELP),
+                    Some(_) => Diagnostic::new(Code::Conditional, span, BY_NUMBER).assuming(Predicate::Main),
+                    None => Diagnostic::new(Code::Conditional, span, UNCALLED).assuming(Predicate::Main),
+                };
+                context.add(index, finding);
                 continue;
             }
             match (wanted.constant().filter(|n| *n >= 1.0), &program.name) {
-                (Some(number), Some(_)) if main => {
+                (Some(number), Some(_)) if main && guess.is_none() => {
                     let why = format!(
                         "the program returns to block N{number} of its caller, but nothing in the library \
                          calls it: convert it together with its callers"
@@ -197,15 +199,44 @@ fn wanted_by(module: &Module, numbers: &BTreeMap<ProgramName, Vec<u32>>) -> BTre
     wanted
 }
 
-/// The programs that the library calls; none if a call is computed.
-fn called(module: &Module) -> Option<BTreeSet<ProgramName>> {
-    let calls = module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
-    let callee = |call: &Call| match &call.callee {
-        Callee::Computed(_) => None,
-        Callee::Program(name) => Some(Some(name.clone())),
-        _ => Some(None),
-    };
-    Some(calls.map(callee).collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
+const UNCALLED: &str =
+    "nothing in the library calls this program: as a main program it goes on at that block";
+const BY_NUMBER: &str = "only a call by a number that is not known might run this program, and the program with that call has no such \
+     block: as a main program it goes on at that block";
+const EITHER: &str = "as a main program this goes on at its own block of that number; a call by a number that is not known might run it \
+     too, and the program with that call has such a block as well";
+const EITHER_HELP: &str = "write a jump if it is a main program; if it is called, call it by its number";
+
+/// Who calls the programs of a library.
+struct Callers {
+    /// Those that a call is known to run.
+    called: BTreeSet<ProgramName>,
+    /// Of each other program that a call by an unknown number may run: the sequence numbers of the callers.
+    guessed: BTreeMap<usize, BTreeSet<u32>>,
+}
+
+impl Callers {
+    fn of(module: &Module) -> Self {
+        let calls = module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
+        let named = calls.filter_map(|call| match &call.callee {
+            Callee::Program(name) => Some(name.clone()),
+            _ => None,
+        });
+        let mut called: BTreeSet<ProgramName> = named.collect();
+        let mut guessed: BTreeMap<usize, BTreeSet<u32>> = BTreeMap::new();
+        for ((caller, _), callees) in computed_calls(module) {
+            if callees.known {
+                let programs = callees.programs.iter().filter_map(|at| module.programs.get(*at));
+                called.extend(programs.filter_map(|program| program.name.clone()));
+                continue;
+            }
+            let labels = module.programs.get(caller).map(places).unwrap_or_default();
+            for program in callees.programs.iter().filter(|program| **program != caller) {
+                guessed.entry(*program).or_default().extend(labels.keys());
+            }
+        }
+        Self { called, guessed }
+    }
 }
 
 /// The first block of each sequence number.

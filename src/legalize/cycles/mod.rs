@@ -11,6 +11,7 @@ pub(in crate::legalize) mod drill_planes;
 pub(in crate::legalize) mod dwell;
 pub(in crate::legalize) mod hole_circles;
 pub(in crate::legalize) mod hole_moves;
+pub(in crate::legalize) mod inherited_words;
 pub(in crate::legalize) mod lone_words;
 pub(in crate::legalize) mod rigid_taps;
 pub(in crate::legalize) mod stored_places;

@@ -51,13 +51,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let lathe = context.target.machine() == Machine::Lathe;
     let (all, writes) = (always(context.source), by_code(context.target));
     let mut changed = false;
+    let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let taps_somewhere =
+        stmts().any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.ops().any(Op::is_tap) || is_open(nc)));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let mut state = facts.at(index, id);
-            if !lathe {
+            if !lathe && taps_somewhere {
                 found.extend(misplaced(block, state.clone()));
+            } else if !lathe && !keeps {
+                untapped(block, index, context);
             }
             let mut coded = false;
             let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
@@ -117,6 +122,29 @@ const LEFT: Told = (
     "the spindle turns to the left here, and the rigid tap is right-handed",
     "write M5 before the code for the rigid tap",
 );
+
+/// True for a block with a code that is known only when it runs.
+fn is_open(nc: &Nc) -> bool {
+    nc.items.iter().any(|item| matches!(item, NcItem::Code('G', _)))
+}
+
+const UNTAPPED: &str = "this code makes the next tap rigid on the source, and no program of the library taps: it may be another function of \
+     the machine's builder";
+
+/// Asks what the code for a rigid tap is in a library that has no taps.
+fn untapped(block: &Block, index: usize, context: &mut Context<'_>) {
+    let row = context.source.code_for(Op::RigidTaps, &BTreeMap::new());
+    let Some((letter, number)) =
+        row.and_then(|row| Some((row.code.chars().next()?, row.code.get(1..)?.parse().ok()?)))
+    else {
+        return;
+    };
+    for stmt in block.stmts.iter().filter(|stmt| stmt.kind.has_op(Op::RigidTaps)) {
+        let help = "say under [[site]] of the source's profile what it does, or take it out";
+        let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, UNTAPPED).with_help(help);
+        context.add(index, finding.asking(letter, number));
+    }
+}
 
 /// Where the code for a rigid tap is followed by something else than a tap that it can make rigid.
 fn misplaced(block: &Block, mut state: Modal) -> Vec<(crate::text::Span, Told)> {

@@ -40,7 +40,10 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                                 Leave one of them out";
                     context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
                 }
-                if !is_bare(nc) || spelled_out || context.is_faulty(index, span) {
+                if !is_bare(nc) || drills(nc, state.op(Group::Cycle)) {
+                    continue;
+                }
+                if spelled_out || context.is_faulty(index, span) {
                     continue;
                 }
                 if here.is_some() && here == there {
@@ -68,6 +71,11 @@ fn has_centre(nc: &Nc) -> bool {
 
 fn is_double(nc: &Nc) -> bool {
     has_centre(nc) && nc.word(Role::ArcRadius).is_some()
+}
+
+/// True for the place of a hole: a cycle is in force after the block, and no code of a move stands in it.
+fn drills(nc: &Nc, after: Option<Op>) -> bool {
+    after.is_some_and(Op::is_cycle) && !nc.ops().any(|op| op.group() == Group::Motion)
 }
 
 fn is_bare(nc: &Nc) -> bool {

@@ -22,6 +22,7 @@ pub(in crate::legalize) mod shaped;
 pub(in crate::legalize) mod shift;
 pub(in crate::legalize) mod short_arcs;
 pub(in crate::legalize) mod start;
+pub(in crate::legalize) mod under_increments;
 pub(in crate::legalize) mod unit_agrees;
 pub(in crate::legalize) mod unit_checks;
 pub(in crate::legalize) mod units;

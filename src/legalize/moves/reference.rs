@@ -2,19 +2,19 @@
 //!
 //! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
-//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves; of those the target
-//! has no letter for, the ones that the program itself moves. A lathe sends home the axes that its profile lists, else X and Z (docs/lathe.md Z2):
+//! axes the machine has its profile says, and the moves of the library: X, Y, Z and the rotary ones it moves. Of those that the target does
+//! not have, the ones that the program itself moves. A lathe sends home the axes that its profile lists, else X and Z (docs/lathe.md Z2):
 //! where the profile lists none and the library moves Y or C, the return is refused.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Machine, Question};
+use crate::dialect::{Axis, Control, Machine, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::lathe::steps::has_letters;
 use crate::legalize::{Context, replace_statements};
 
-const ROTARY: &str = "this return takes the rotary axes of the source along, and the target has none of their letters: make sure that they \
-                      stand at their reference position, or that the target's machine has no such axes";
+const ROTARY: &str = "this return takes all axes of the source along, and the target does not have all of the rotary ones: make sure that \
+                      they stand at their reference position, or that the target's machine has no such axes";
 
 /// Names the axes of returns that name none.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -38,33 +38,39 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return doubt(module, there, context);
     }
     let rotary = [Role::A, Role::B, Role::C];
-    let turns = context.source.machine() == Machine::Lathe;
+    let further = [Role::A, Role::B, Role::C, Role::U, Role::V, Role::W];
+    let source = context.source;
+    let turns = source.machine() == Machine::Lathe;
     let moves = |role: &Role| {
         let step = Role::STEPS.iter().find(|(whole, _)| whole == role).map(|(_, step)| *step);
         ncs().any(|nc| nc.word(*role).is_some() || step.is_some_and(|step| nc.word(step).is_some()))
     };
+    let has = |role: &Role| has_axis(source, *role) == Some(true) || rotary.contains(role) && moves(role);
     let linear = [Role::X, Role::Y, Role::Z].into_iter();
     let axes: Vec<Role> = match turns {
-        true => of_lathe(context.source, context.target, &moves),
-        false => linear.chain(rotary.into_iter().filter(|role| moves(role))).collect(),
+        true => of_lathe(source, context.target, &moves),
+        false => linear.chain(further.into_iter().filter(has)).collect(),
     };
-    let untold = turns && context.source.profile().axes.is_none() && [Role::Y, Role::C].iter().any(moves);
+    let untold = turns && source.profile().axes.is_none() && [Role::Y, Role::C].iter().any(moves);
     let letters = has_letters(context.source);
-    // What the target has no letter for is named where the program moves it, and refused there.
+    // What the target does not have is named where the program moves it, and refused there.
     let target = context.target;
+    let taken = |role: Role| target.letter(role, None).is_some() && has_axis(target, role) != Some(false);
     let own: Vec<Vec<Role>> = module
         .programs
         .iter()
         .map(|program| {
             let ncs = || program.blocks.iter().flat_map(|b| &b.stmts).filter_map(|stmt| stmt.kind.nc());
             let named = |role: &Role| {
-                !rotary.contains(role)
-                    || target.letter(*role, None).is_some()
-                    || ncs().any(|nc| nc.word(*role).is_some())
+                !further.contains(role) || taken(*role) || ncs().any(|nc| nc.word(*role).is_some())
             };
             axes.iter().copied().filter(named).collect()
         })
         .collect();
+    // Without a list of its axes the source may have each of the rotary ones.
+    let may_have =
+        |role: &Role| axes.contains(role) || rotary.contains(role) && has_axis(source, *role).is_none();
+    let left_out = !turns && further.iter().any(|role| may_have(role) && !taken(*role));
     let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
@@ -94,7 +100,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             };
             let told = Diagnostic::new(code, span, what).asked_once();
             context.add(index, if untold { told.with_help(UNTOLD_HELP) } else { told });
-            if !turns && rotary.into_iter().any(|role| target.letter(role, None).is_none()) {
+            if left_out {
                 context.add_once(
                     index,
                     ROTARY,
@@ -112,10 +118,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 /// The axes that a lathe sends home: those that its profile lists, as far as the target has them or the library moves them.
 fn of_lathe(source: &Control, target: &Control, moves: &dyn Fn(&Role) -> bool) -> Vec<Role> {
-    let listed = |control: &Control, role: &Role| {
-        let axes = control.profile().axes.as_ref();
-        axes.is_some_and(|axes| axes.iter().any(|axis| Some(axis.number()) == role.axis_number()))
-    };
+    let listed = |control: &Control, role: &Role| has_axis(control, *role) == Some(true);
     let more = [Role::Y, Role::C].into_iter();
     let more = more.filter(|role| listed(source, role) && (listed(target, role) || moves(role)));
     [Role::X, Role::Z].into_iter().chain(more).collect()
@@ -124,6 +127,12 @@ fn of_lathe(source: &Control, target: &Control, moves: &dyn Fn(&Role) -> bool) -
 const UNTOLD: &str = "a return to the reference position without axes takes all axes home, and which axes the machine has is not known";
 const UNTOLD_HELP: &str =
     "name the axes in this block, or list them in the source's profile: axes = [\"X\", \"Z\", ...]";
+
+/// Whether a machine has an axis, if its profile lists them.
+fn has_axis(control: &Control, role: Role) -> Option<bool> {
+    let number = |axis: &Axis| Some(axis.number()) == role.axis_number();
+    Some(control.profile().axes.as_ref()?.iter().any(number))
+}
 
 /// What a return without axes does on the source is not known; on the target it may move all of them.
 fn doubt(module: &Module, all: bool, context: &mut Context<'_>) {

@@ -1,60 +1,136 @@
 //! Work offsets that a program writes while they may be selected.
 //!
 //! Law: a table row that is written before it is selected counts the same on every control. One that is selected
-//! already may count at once, from the next block, or when it is selected again: where the two controls are
-//! not both known to do the same, the reviewer is told. Side condition: what is selected is known from the text.
+//! already may count at once, from the next block, or when it is selected again: where a program goes to a place of the part before it
+//! selects one, each control that is not known is asked, and a program is refused where the two are known to differ.
+//! Side conditions: what is selected is known from the text; an increment goes the same way under every offset. Counter-example:
+//! `G54`, `#5221=#5221+5.`, `G90 G0 X0.`.
 
-use crate::canon::{Group, Op, Sys};
-use crate::dialect::{Question, Side};
-use crate::ir::{BlockId, Module, Place, StmtKind};
-use crate::legalize::{Context, Setting};
+use crate::canon::{Group, Op, Role, Sys};
+use crate::dialect::Question;
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::over_calls::{Follow, OverCalls};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, Place, Stmt, StmtKind};
+use crate::legalize::features::{Feature, Features};
+use crate::legalize::{Context, Modal, ModalFacts, Setting};
 
-/// Reports writes to offsets that may be in force.
+const FACT: Question = Question::OffsetActiveImmediately;
+
+/// True if the library writes work offsets.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    (features.has(Feature::System) || features.op(Op::WriteWork))
+        && !context.source.is_same_machine(context.target)
+}
+
+/// Says what rests on the controls.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    const FACT: Question = Question::OffsetActiveImmediately;
-    let answer = |control: &crate::dialect::Control| {
-        control.behaviour(FACT).filter(|row| row.value != "unknown").map(|row| row.value.clone())
-    };
-    if context.agree(FACT) {
-        return;
-    }
     let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
     if !stmts().any(|stmt| row(&stmt.kind).is_some()) {
         return;
     }
     let facts = context.modal_facts(module);
+    let starts = OverCalls::of(module, &Writes { facts: &facts });
     for (index, program) in module.programs.iter().enumerate() {
-        for (at, block) in program.blocks.iter().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let Some(mut stale) = starts.at(index, id).copied() else { continue };
+            let mut state = facts.at(index, id);
             for stmt in &block.stmts {
-                if let Some(written) = row(&stmt.kind) {
-                    let other = match state.of(Group::WorkOffset) {
-                        Setting::Known(Op::ShiftCancel, _) => true,
-                        Setting::Known(Op::SelectWork, Some(selected)) => {
-                            written.is_some_and(|row| row != f64::from(selected))
-                        }
-                        _ => false,
-                    };
-                    if !other {
-                        let what = "the work offset may be in force while it is written: it is not known \
-                                    for both controls whether the new value counts at once or when the \
-                                    offset is selected again";
-                        let side = if answer(context.target).is_none() { Side::Target } else { Side::Source };
-                        let fact = FACT.fact();
-                        context.unconfirmed(index, side, stmt.site.span, fact, what);
-                    }
+                if step(stmt, &mut state, &mut stale) {
+                    context.rests_on_source(index, stmt.site.span, FACT);
+                    context.rests_on_target(index, stmt.site.span, FACT);
+                    context.must_agree(index, stmt.site.span, FACT);
                 }
-                state.step(stmt);
             }
         }
     }
 }
 
-/// The row of the work offset that a statement writes, the number where it is constant.
+/// True where the offset in force was written since it was selected, on some way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Stale(bool);
+
+impl Lattice for Stale {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined = Self(self.0 || other.0);
+        std::mem::replace(self, joined) != joined
+    }
+}
+
+struct Writes<'f> {
+    facts: &'f ModalFacts,
+}
+
+impl Follow for Writes<'_> {
+    type Known = Stale;
+
+    fn outside(&self, _: usize) -> Stale {
+        Stale::default()
+    }
+
+    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, stale: &mut Stale) {
+        let mut state = self.facts.at(index, id);
+        for stmt in &block.stmts {
+            step(stmt, &mut state, stale);
+        }
+    }
+
+    // What the library does not have is taken to leave it as it is.
+    fn lose(&self, _: &mut Stale) {}
+}
+
+/// Takes a statement; true where it rests on when the offset counts.
+fn step(stmt: &Stmt, state: &mut Modal, stale: &mut Stale) -> bool {
+    let before = *stale;
+    if let Some(written) = row(&stmt.kind) {
+        stale.0 |= match state.of(Group::WorkOffset) {
+            Setting::Known(Op::ShiftCancel, _) => false,
+            Setting::Known(Op::SelectWork, Some(selected)) => {
+                written.is_none_or(|row| row == f64::from(selected))
+            }
+            _ => true,
+        };
+    }
+    state.step(stmt);
+    let reads = before.0 && reads_position(&stmt.kind);
+    let Some(nc) = stmt.kind.nc() else { return reads };
+    stale.0 &= !nc.ops().any(|op| op.group() == Group::WorkOffset);
+    let rests = stale.0 && goes(nc, state);
+    // A block that may be skipped leaves what was.
+    if stmt.site.skip.is_some() {
+        stale.join(&before);
+    }
+    rests || reads
+}
+
+/// True for a place of the part.
+fn goes(nc: &Nc, after: &Modal) -> bool {
+    let elsewhere = [Op::MachineOnce, Op::WriteWork, Op::LocalShift];
+    nc.names_axis()
+        && !nc.ops().any(|op| elsewhere.contains(&op))
+        && after.op(Group::Distance) != Some(Op::Incremental)
+}
+
+/// True for a statement that reads where the tool is on the part.
+fn reads_position(kind: &StmtKind) -> bool {
+    let mut reads = false;
+    kind.exprs(&mut |expr| {
+        expr.walk(&mut |inner| {
+            reads |=
+                matches!(inner, Expr::System(Sys::WorkPosition | Sys::EndPosition | Sys::AxisPosition, _));
+        });
+    });
+    reads
+}
+
+/// The row of the work offset that a statement writes, the number where it is constant. Row 0 of a code is the shift of all of
+/// them.
 fn row(kind: &StmtKind) -> Option<Option<f64>> {
     match kind {
         StmtKind::Assign { target: Place::System(Sys::WorkOffset, subscripts), .. } => {
-            Some(subscripts.first().and_then(|row| row.constant()))
+            Some(subscripts.first().and_then(Expr::constant))
+        }
+        StmtKind::Nc(nc) if nc.has(Op::WriteWork) => {
+            Some(nc.word(Role::OffsetRow).and_then(Expr::constant).filter(|row| *row != 0.0))
         }
         _ => None,
     }

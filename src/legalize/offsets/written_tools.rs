@@ -24,7 +24,8 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     };
     [context.source, context.target].iter().all(says)
         && !context.source.is_same_machine(context.target)
-        && features.has(crate::legalize::features::Feature::System)
+        && (features.has(crate::legalize::features::Feature::System)
+            || features.any_op(|op| cell_of(op).is_some()))
         && (features.role(Role::LengthOffset) || features.role(Role::RadiusOffset))
 }
 
@@ -131,6 +132,10 @@ enum Cell {
 
 /// The cell that a statement writes, and its row where that is a number.
 fn written(kind: &StmtKind) -> Option<(Cell, Option<f64>)> {
+    if let StmtKind::Nc(nc) = kind {
+        let cell = nc.ops().find_map(cell_of)?;
+        return Some((cell, nc.word(Role::OffsetRow).and_then(Expr::constant)));
+    }
     let StmtKind::Assign { target: Place::System(state, subscripts), .. } = kind else { return None };
     let cell = match state {
         Sys::LengthGeometry | Sys::LengthWear => Cell::Length,
@@ -140,6 +145,16 @@ fn written(kind: &StmtKind) -> Option<(Cell, Option<f64>)> {
         _ => return None,
     };
     Some((cell, subscripts.first().and_then(Expr::constant)))
+}
+
+/// The cell that a code writes.
+fn cell_of(op: Op) -> Option<Cell> {
+    match op {
+        Op::WriteLength | Op::WriteLengthWear => Some(Cell::Length),
+        Op::WriteRadius | Op::WriteRadiusWear => Some(Cell::Radius),
+        Op::WriteOffset => Some(Cell::Both),
+        _ => None,
+    }
 }
 
 fn length_in_force(state: &Modal, row: Option<f64>) -> bool {

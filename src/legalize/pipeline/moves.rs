@@ -8,8 +8,8 @@ use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     added_angles, bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar,
-    rapid_once, reference, rotary_ways, rotations, shaped, shift, short_arcs, unit_agrees, unit_checks,
-    units, word_rounds,
+    rapid_once, reference, rotary_ways, rotations, shaped, shift, short_arcs, under_increments, unit_agrees,
+    unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -60,6 +60,12 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::reports("added-angles", "tells of angles of rotations that may add up", added_angles::run)
         .when(added_angles::concerns),
+    Pass::reports(
+        "under-increments",
+        "tells of machine coordinates and centres of rotations under G91",
+        under_increments::run,
+    )
+    .when(under_increments::concerns),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
         .when(|c, _| c.has(Feature::Increments)),
     Pass::edits("hole-circles", "holes on a circle get blocks of their own", hole_circles::run)
@@ -76,7 +82,7 @@ pub(super) const MOVES: &[Pass] = &[
         "checks work offsets that are written while selected",
         active_offsets::run,
     )
-    .when(|c, _| c.has(Feature::System))
+    .when(active_offsets::concerns)
     .needs(&["table-writes"]),
     Pass::reports(
         "written-tools",

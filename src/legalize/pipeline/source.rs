@@ -4,7 +4,9 @@ use super::Pass;
 use super::lathe::{HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::LATER_LENGTHS;
 use crate::legalize::assumptions::{changes, facts, runtime, shop};
-use crate::legalize::cycles::{cycle_arcs, cycle_waits, drill_planes, lone_words, stored_places};
+use crate::legalize::cycles::{
+    cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, stored_places,
+};
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::moves::first_increments;
@@ -22,6 +24,12 @@ pub(super) const SOURCE: &[Pass] = &[
     HOLE_CODES,
     INTERPOLATIONS,
     LONE_PASSES,
+    Pass::edits(
+        "inherited-words",
+        "words of a cycle that callers have in force are the cycle's",
+        inherited_words::run,
+    )
+    .when(inherited_words::concerns),
     Pass::edits(
         "stored-places",
         "a place beside a repeat of none is gone to before its cycle",

@@ -179,11 +179,13 @@ impl Verifier<'_, '_> {
 /// whose profile does not list them.
 fn at_reference(scenario: &mut Scenario, target: &Side<'_>) {
     let lathe = target.control.machine() == Machine::Lathe;
-    let listed = |axis: Axis| target.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
+    let axes = target.control.profile().axes.as_ref();
+    let listed = |axis: Axis| axes.is_some_and(|axes| axes.contains(&axis));
     for (axis, role, own) in
         [(1, Role::Y, Axis::Y), (3, Role::A, Axis::A), (4, Role::B, Axis::B), (5, Role::C, Axis::C)]
     {
-        let lacks = role != Role::Y && target.control.letter(role, None).is_none();
+        let has_letter = target.control.letter(role, None).is_some();
+        let lacks = role != Role::Y && (!has_letter || axes.is_some() && !listed(own));
         if lacks || lathe && !listed(own) {
             scenario.start[axis] = scenario.references[0][axis];
         }

@@ -35,8 +35,8 @@ impl Verifier<'_, '_> {
                 if let EventKind::Unsure { fact } = &event.what {
                     let is_new = !assumed.contains(fact.as_str());
                     let kept = self.unconfirmed.entry(fact.clone()).or_default();
-                    if is_new && kept.is_none() {
-                        *kept = Some(OpenFact::new(fact, of, &Moment::of(library, library_run, event)));
+                    if is_new && kept.iter().all(|open| open.side != of) {
+                        kept.push(OpenFact::new(fact, of, &Moment::of(library, library_run, event)));
                     }
                 }
             }
@@ -71,7 +71,7 @@ impl Verifier<'_, '_> {
             match self.weigh(&pair, difference, excuse) {
                 Some((why, text)) => {
                     if why == Why::Unconfirmed {
-                        self.unconfirmed.insert(ROUNDS.into(), None);
+                        self.unconfirmed.insert(ROUNDS.into(), Vec::new());
                     }
                     self.because(why, &text);
                 }

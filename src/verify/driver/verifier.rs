@@ -47,7 +47,7 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) theirs: BTreeMap<String, f64>,
     pub(super) reasons: BTreeMap<Why, BTreeSet<String>>,
     /// Unconfirmed facts that mattered; with where they did, those that nobody reported.
-    pub(super) unconfirmed: BTreeMap<String, Option<OpenFact>>,
+    pub(super) unconfirmed: BTreeMap<String, Vec<OpenFact>>,
     pub(super) texts: BTreeSet<(String, String)>,
     pub(super) tolerance: Tolerance,
     pub(super) largest: f64,

@@ -28,7 +28,7 @@ pub struct Links {
     callers: HashMap<ProgramRef, Vec<ProgramRef>>,
     /// Those with a call of which the text does not say what it calls.
     open: HashSet<ProgramRef>,
-    /// True for each of A, B and C that a program has a word of.
+    /// True for each of A, B and C that the profile lists, or that a program has a word of.
     rotary: [bool; 3],
 }
 
@@ -48,6 +48,11 @@ impl Links {
             links.ran.push(HashMap::new());
             let all = (0..).map(|program| ProgramRef { file, program });
             all.take_while(|program| side.has(*program)).for_each(|program| links.take_in(side, program));
+        }
+        for axis in side.control.profile().axes.iter().flatten() {
+            // A is the fourth axis.
+            let rotary = (axis.number() as usize).checked_sub(4).and_then(|at| links.rotary.get_mut(at));
+            rotary.into_iter().for_each(|has| *has = true);
         }
         links
     }
@@ -118,7 +123,7 @@ impl Links {
         !self.callees(program).is_empty() || self.open.contains(&program)
     }
 
-    /// True for each of A, B and C that a program has a word of.
+    /// True for each of A, B and C that the machine has by its profile, or that a program has a word of.
     pub fn rotary(&self) -> [bool; 3] {
         self.rotary
     }
@@ -222,8 +227,9 @@ fn has_words(item: &Item) -> bool {
 fn rotary_in(side: &ProgramTexts<'_>, program: ProgramRef) -> [bool; 3] {
     let mut found = [false; 3];
     for block in side.text(program) {
-        let axes =
-            || words(&block.items).filter_map(|word| ROTARY.iter().position(|axis| *axis == word.letter));
+        // A word with a comma is a corner.
+        let letters = || words(&block.items).filter(|word| !word.comma).map(|word| word.letter);
+        let axes = || letters().filter_map(|letter| ROTARY.iter().position(|axis| *axis == letter));
         if axes().next().is_some() && !gives_arguments(side, &block.items) {
             axes().for_each(|axis| found[axis] = true);
         }

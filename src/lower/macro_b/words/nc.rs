@@ -80,6 +80,7 @@ impl<'a> Lowering<'a> {
                 self.word(word, span, &codes, &mut nc, &mut seen);
             }
         }
+        self.radius_by_length_word(&mut nc, site.span);
         self.check_m_codes(&seen, site.span);
         self.check_turning(&nc, site.span);
         if nc.ops().filter(|op| *op == Op::Act).count() > 1 {
@@ -95,6 +96,31 @@ impl<'a> Lowering<'a> {
         self.push_nc(nc, site);
         if let Some(place) = place {
             self.push_nc(place, &SourceInfo { span: site.span, skip: site.skip, ..SourceInfo::default() });
+        }
+    }
+
+    /// H beside G41 or G42, where nothing else names a length or a radius: a parameter says which of the two it is.
+    fn radius_by_length_word(&mut self, nc: &mut Nc, span: Span) {
+        let begins = nc.has(Op::RadiusLeft) || nc.has(Op::RadiusRight);
+        let alone = nc.word(Role::LengthOffset).is_some() && nc.word(Role::RadiusOffset).is_none();
+        if !begins || !alone || nc.ops().any(|op| op.group() == Group::LengthComp) {
+            return;
+        }
+        let question = Question::RadiusByLengthWord;
+        let answer = self.control.behaviour(question).map(|row| row.value.as_str());
+        if matches!(answer, Some("true" | "unknown")) {
+            for item in &mut nc.items {
+                if let NcItem::Word(role @ Role::LengthOffset, _) = item {
+                    *role = Role::RadiusOffset;
+                }
+            }
+        }
+        if answer == Some("unknown") {
+            let what = "H beside G41 or G42 without D: whether it names the cutter radius or the tool length, the machine's \
+                            profile does not say";
+            let help = "give parameters.5001.2 in the profile: 1 if H names the radius, 0 if it is the length; or write D";
+            let finding = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
+            self.findings.add(finding.lacking("parameter.5001.2"));
         }
     }
 

@@ -47,8 +47,9 @@ impl<'a> Lowering<'a> {
                     "a setting of the control says what a scale factor without a decimal point means";
                 let help = self.control.to_settle(Question::ScaleBare.fact(), Side::Source);
                 let found = Diagnostic::new(Code::NotUnderstood, value.span, message);
-                self.findings.add(found.with_help(help));
-                return None;
+                self.findings.add(found.with_help(help).lacking("parameter.5400.7"));
+                // The block has a factor: what it is worth is told.
+                return Some((role, Expr::Number(number)));
             };
             return Some((role, Expr::Number(number / parts)));
         }
