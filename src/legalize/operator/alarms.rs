@@ -56,10 +56,8 @@ fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, con
             let what = format!("no source says what an alarm with the number {n} does");
             context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
         }
-        Some(n) => {
-            if n > here {
-                context.rests_on_source(index, span, Question::AlarmMax);
-            }
+        Some(n) if n > here => {
+            context.rests_on_source(index, span, Question::AlarmMax);
         }
         None if there < here => {
             let what = format!(
@@ -69,6 +67,6 @@ fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, con
             let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Alarms(there));
             context.add_once(index, "computed alarm", finding);
         }
-        None => {}
+        _ => {}
     }
 }
