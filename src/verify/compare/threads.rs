@@ -69,7 +69,7 @@ fn along_z(before: &EventKind, (from, to): (&Position, &Position)) -> Option<Eve
     let along = |a: &Position, b: &Position| moves_along(a, b) == Some(Z);
     let goes_on = (there.0[Z] - first.0[Z]) * (to.0[Z] - from.0[Z]) > 0.0;
     let one = apart(there, from) <= NEAR && along(first, there) && along(from, to) && goes_on;
-    one.then(|| EventKind::Rapid { from: *first, to: *to })
+    one.then_some(EventKind::Rapid { from: *first, to: *to })
 }
 
 /// The axis that a move goes along, if that is one.
