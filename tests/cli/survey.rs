@@ -208,10 +208,10 @@ fn the_code_system_and_what_is_in_force_are_answered_in_any_order() {
     assert_eq!(shop.run(line).code, 0);
     let asked = shop.read("m.toml");
     // By facts/fanuc-lathe.md 1.
-    assert!(asked.contains("#? # Answer gcode_system first"), "{asked}");
-    assert!(asked.contains("#? # the unit: one of G20, G21 in B; G70, G71 in C ("), "{asked}");
-    assert!(asked.contains("#? # feed a minute or a turn: one of G94, G95 in B and C ("), "{asked}");
-    assert!(asked.contains("#? # absolute or incremental: one of G90, G91 in B and C ("), "{asked}");
+    assert!(asked.contains("#: Answer gcode_system first"), "{asked}");
+    assert!(asked.contains("#: the unit: one of G20, G21 in B; G70, G71 in C ("), "{asked}");
+    assert!(asked.contains("#: feed a minute or a turn: one of G94, G95 in B and C ("), "{asked}");
+    assert!(asked.contains("#: absolute or incremental: one of G90, G91 in B and C ("), "{asked}");
     let begins = "[start]\ncodes = \"G21 G18 G95 G90 G54 G0\"\n";
     let kind = "dialect = \"fanuc\"\nmachine = \"lathe\"\naxes = [\"X\", \"Z\"]\n";
     let told = |profile: String, wanted: &[&str]| {

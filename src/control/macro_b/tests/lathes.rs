@@ -161,11 +161,12 @@ fn a_feed_by_the_turn_takes_its_time() {
 }
 
 #[test]
-fn a_wait_or_a_code_of_its_own_makes_no_pass() {
+fn a_wait_or_a_feed_makes_no_pass_and_a_code_makes_one_more() {
     // B9, and B7: a pass comes back to where it began.
     let text = "O1\nG0 X60. Z2.\nG90 X50. Z-10. F.2\nG4 X1.\nM8\nF.1\nX46.\nM30\n";
     let cut = |x: f64| [[x, 2.0], [x, -10.0], [60.0, -10.0], [60.0, 2.0]];
-    let expected: Vec<[f64; 2]> = [[60.0, 2.0]].into_iter().chain(cut(50.0)).chain(cut(46.0)).collect();
+    let expected: Vec<[f64; 2]> =
+        [[60.0, 2.0]].into_iter().chain(cut(50.0)).chain(cut(50.0)).chain(cut(46.0)).collect();
     assert_eq!(moves(&run(FANUC, text)), expected);
 }
 
