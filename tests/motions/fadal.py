@@ -71,14 +71,14 @@ for x, y, radius in ((4.0, -0.876, 0.19), (4.0, -3.45, 0.255)):
 part.rapid(1.5, -3.45)
 
 # Rectangular pocket 4 by 2.
-part = Part("o600-rect-pocket", "A pocket of 4 by 2, counter-clockwise from the middle of its lower side. G90 stands in\n"
-                                "the last block, so Y+R4 is the absolute Y1 (note in MANIFEST.tsv).",
+part = Part("o600-rect-pocket", "A pocket of 4 by 2, counter-clockwise from the middle of its lower side. G90 stands\n"
+                                "after Y+R4 in the last block, so that is an increment: back to the middle, as it began.",
             scenario="called = true\nanswers = [4, 2]")
 part.work(1)
 part.rapid(z=0.1)
 part.rapid(0.0, 0.0)
 part.feed(z=-0.25, f=20.0)
-for x, y in [(0, -1), (2, -1), (2, 1), (-2, 1), (-2, -1), (0, -1), (0, 1)]:
+for x, y in [(0, -1), (2, -1), (2, 1), (-2, 1), (-2, -1), (0, -1), (0, 0)]:
     part.feed(x, y)
 part.rapid(z=0.1)
 
@@ -101,7 +101,7 @@ part.arc(-2, 0.5, (-1.5, 0.5), +1)
 part.feed(-2, -0.5)
 part.arc(-1.5, -1, (-1.5, -0.5), +1)
 part.feed(0, -1)
-part.feed(0, 1)
+part.feed(0, 0)
 part.rapid(z=0.1)
 
 # The D-hole: circle of 2 about (2, -3), blends of .5, a flat .7 to the left.
