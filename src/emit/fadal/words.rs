@@ -26,7 +26,7 @@ impl<'p> Emitter<'p> {
         self.finish();
     }
 
-    /// A block whose code for places or increments stands behind its words, with the code before them, where it counts for
+    /// A block whose code for places or increments stands after its words, with the code before them, where it counts for
     /// no word before it.
     fn mode_first(&self, nc: &Nc) -> Option<Nc> {
         let is_mode = |item: &NcItem| matches!(item, NcItem::Op(op) if op.group() == Group::Distance);

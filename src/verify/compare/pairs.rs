@@ -85,8 +85,8 @@ pub(super) fn acts<'r>(
     if brought(source.0.control, target.0.control) {
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
-    let [ours, theirs] = [ours, theirs].map(|acts| threads::again(together(acts)));
-    [joined(ours, is_cut(source.1)), joined(theirs, is_cut(target.1))]
+    [(ours, source.1), (theirs, target.1)]
+        .map(|(acts, run)| joined(threads::again(together(acts, is_cut(run))), is_cut(run)))
 }
 
 /// Two runs side by side.

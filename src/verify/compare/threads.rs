@@ -18,7 +18,7 @@ const Z: usize = 2;
 /// Leaves out how the tool comes from one such pass to the next.
 pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
-    // The last pass, and the place behind it.
+    // The last pass, and the place after it.
     let mut last: Option<(Position, Position, usize)> = None;
     for act in acts {
         match (&*act.what, last) {
@@ -26,15 +26,15 @@ pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
                 let (from, to) = (*from, *to);
                 let same =
                     before.is_some_and(|(start, end, _)| apart(&start, &from).max(apart(&end, &to)) <= NEAR);
-                if let Some((_, end, behind)) = before.filter(|_| same)
-                    && beside(out.get(behind..).unwrap_or_default(), end, from)
+                if let Some((_, end, after)) = before.filter(|_| same)
+                    && beside(out.get(after..).unwrap_or_default(), end, from)
                 {
-                    out.truncate(behind + 1);
+                    out.truncate(after + 1);
                 }
                 out.push(act);
                 last = Some((from, to, out.len()));
             }
-            (EventKind::Rapid { from, to }, Some((.., behind))) if out.len() > behind => {
+            (EventKind::Rapid { from, to }, Some((.., after))) if out.len() > after => {
                 match out.last_mut().and_then(|before| Some((along_z(&before.what, (from, to))?, before))) {
                     Some((whole, before)) => before.what = What::other(whole),
                     None => out.push(act),

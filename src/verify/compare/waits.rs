@@ -1,13 +1,13 @@
 //! Waits in a row.
 //!
 //! A wait that is too long for one word of the target becomes several. Nothing stands between them, so that the machine
-//! waits as long as all of them together.
+//! waits as long as all of them together. A run that is cut may end amid them: how long it would have waited nobody knows.
 
 use super::observe::{Act, What};
 use crate::control::trace::EventKind;
 
-/// One wait in the place of several in a row.
-pub(super) fn together(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+/// One wait in the place of several in a row; none at the end of a run that is `cut`.
+pub(super) fn together(acts: Vec<Act<'_>>, cut: bool) -> Vec<Act<'_>> {
     let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
     for act in acts {
         match (out.last_mut(), &*act.what) {
@@ -18,6 +18,9 @@ pub(super) fn together(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
             }
             _ => out.push(act),
         }
+    }
+    if cut && out.last().is_some_and(is_wait) {
+        out.pop();
     }
     out
 }

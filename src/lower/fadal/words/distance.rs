@@ -1,4 +1,4 @@
-//! G90 and G91 by their places: a control may read a block from left to right, so that one counts for the words behind it.
+//! G90 and G91 by their places: a control may read a block from left to right, so that one counts for the words after it.
 
 use super::reading::Reading;
 use crate::canon::{Group, Op, Role};
@@ -72,12 +72,12 @@ impl<'b> Lowering<'b> {
     }
 }
 
-const UNTOLD: &str = "G90 or G91 stands between the words of this block, and counts for those behind it alone: write \
+const UNTOLD: &str = "G90 or G91 stands between the words of this block, and counts for those after it alone: write \
                       one before the first of them too";
 const MIXED: &str = "G90 counts for some words of this block, and G91 for others: write them in two blocks, or all under \
                      one of the two";
 const UNDER_CALL: &str =
-    "G90 or G91 behind the words of a move that calls a subroutine (G66): write it in a block of its own";
+    "G90 or G91 after the words of a move that calls a subroutine (G66): write it in a block of its own";
 const REPEATED: &str = "G90 or G91 behind the words of a block with L: write it in a block of its own";
 
 /// The words of a block between its codes of the distance mode.
