@@ -145,10 +145,10 @@ fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     }
     let angle = angle.unwrap_or(0.0);
     let mut degrees = if machine.rules.rotation_is_ccw.ask(trace) { angle } else { -angle };
-    if machine.incremental {
-        if let Some(before) = before.filter(|_| machine.rules.rotation_adds.ask(trace)) {
-            degrees += before;
-        }
+    if machine.incremental
+        && let Some(before) = before.filter(|_| machine.rules.rotation_adds.ask(trace))
+    {
+        degrees += before;
     }
     let centre = (centre[first], centre[second]);
     machine.frame.rotation = Some(Rotation { axes: (first, second), centre, degrees });

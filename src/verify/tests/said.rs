@@ -44,7 +44,7 @@ fn waits_in_a_row_are_one() {
 #[test]
 fn waits_of_a_run_that_is_cut_are_no_difference() {
     let source = "O1\nG21G90G54G0X0.Y0.\nN10G4P100\nIF[#1000EQ0]GOTO10\nX5.\nM30\n";
-    let target = "O1\nG21 G90 G54 G0 X0. Y0.\nN10 G4 P100\n#500=#500+1\nIF [#1000 EQ 0] GOTO 10\nX5.\nM30\n";
+    let target = "O1\nG21 G90 G54 G0 X0. Y0.\nN10 G4 P100\nG90\nIF [#1000 EQ 0] GOTO 10\nX5.\nM30\n";
     let found = judged([FANUC, FANUC], source, target);
     assert_ne!(found.0, Outcome::Different, "{}", found.1);
 }

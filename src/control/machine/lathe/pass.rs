@@ -26,7 +26,7 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
         return Err(alarm("PS0330", "a pass of an axis other than X and Z"));
     }
     let is_told = own.iter().any(|role| command.word(*role).is_some());
-    if !is_told && !(machine.lathe.pass.is_whole() && runs_again(machine, command, trace)) {
+    if !(is_told || machine.lathe.pass.is_whole() && runs_again(machine, command, trace)) {
         return Ok(());
     }
     machine.lathe.after_cycle = false;
