@@ -17,7 +17,7 @@ pub struct ByPlace {
 }
 
 impl ByPlace {
-    /// Reads the codes of a block; none where a code counts for the whole of its block.
+    /// Reads the codes of a block. None if the block has no such code, or the control takes one for its whole block.
     pub fn of(control: &Control, words: &[Spoken], codes: &[&CodeMeaning]) -> Option<Self> {
         let row = control.behaviour(Question::DistanceCode)?;
         if row.value != "by.place" || !codes.iter().any(|row| row.op.group() == Group::Distance) {

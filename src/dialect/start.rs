@@ -116,8 +116,8 @@ impl Control {
         }
     }
 
-    /// The G code systems of a lathe that have all the codes that the profile names, but for its own one; none where it says
-    /// that the machine is a mill.
+    /// The other G code systems of a lathe that have all the codes that the profile names. None if the profile says that the
+    /// machine is a mill.
     fn systems_that_have_it(&self) -> Vec<String> {
         let is_lathe = self.machine() == Machine::Lathe;
         if !is_lathe && self.profile.machine.is_some() {

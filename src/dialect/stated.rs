@@ -11,7 +11,7 @@ use crate::canon::Func;
 /// Answers that leave a question open.
 const OPEN: [&str; 2] = ["unknown", "setting"];
 
-/// Limits of what a control may do without.
+/// Limits that may be 0: a control need not have such a thing at all.
 const MAY_BE_NONE: [&str; 1] = ["brackets"];
 
 impl Overlay {

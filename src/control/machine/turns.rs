@@ -1,7 +1,7 @@
 //! The way of a rotary axis whose words have the sign of their way.
 //!
-//! Absolute, the number is a place within one turn, and its sign says how the axis comes to it: 0 or no sign the positive way,
-//! a minus the negative one. Where the axis is there already it stays.
+//! Under G90 the number is a place within one turn, and its sign says how the axis comes to it: without a sign the positive way,
+//! with a minus the negative one. An axis that is there already stays.
 
 use super::Machine;
 use super::command::is_rotary;

@@ -62,8 +62,8 @@ pub fn takes(control: &Control, op: Op, role: Role) -> bool {
     row(control, op).is_some_and(|row| row.words.values().any(|found| *found == role))
 }
 
-/// The setting that stands in for a word of the block before a cycle, by name, and its number where the profile says it; none where a
-/// block of the library sets such a word: that changes the setting, for the cycles of other programs and of later days too.
+/// The setting that counts where no block before a cycle writes a word: its name, and its number if the profile says it. None if a
+/// block of the library writes such a word: that changes the setting, for the cycles of other programs and of later days too.
 pub fn stand_in<'c>(
     control: &'c Control,
     features: &Features,

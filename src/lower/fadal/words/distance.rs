@@ -78,13 +78,13 @@ const MIXED: &str = "G90 counts for some words of this block, and G91 for others
                      one of the two";
 const UNDER_CALL: &str =
     "G90 or G91 after the words of a move that calls a subroutine (G66): write it in a block of its own";
-const REPEATED: &str = "G90 or G91 behind the words of a block with L: write it in a block of its own";
+const REPEATED: &str = "G90 or G91 after the words of a block with L: write it in a block of its own";
 
 /// The words of a block between its codes of the distance mode.
 struct Runs {
     /// The codes, in order.
     codes: Vec<Op>,
-    /// Whether words that hang on the mode stand before the first code, and behind each.
+    /// Whether words that hang on the mode stand before the first code, and after each.
     words: Vec<bool>,
 }
 
