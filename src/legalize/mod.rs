@@ -17,6 +17,7 @@ mod calls;
 mod codes;
 mod context;
 mod cycles;
+mod each_step;
 mod expressions;
 mod features;
 mod lathe;

@@ -10,10 +10,10 @@ use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::{Block, BlockId, Module, Stmt};
+use crate::ir::{Module, Stmt};
+use crate::legalize::each_step::each_step;
 use crate::legalize::features::Features;
-use crate::legalize::{Context, Modal, ModalFacts};
+use crate::legalize::{Context, Modal};
 
 const ADDS: Question = Question::RotationAdds;
 
@@ -31,26 +31,18 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Says what rests on the controls.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    let starts = OverCalls::of(module, &Before { facts: &facts });
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let Some(mut angle) = starts.at(index, id).copied() else { continue };
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                let before = angle;
-                if !step(stmt, &mut state, &mut angle) {
-                    continue;
-                }
-                let span = stmt.site.span;
-                context.rests_on_source(index, span, ADDS);
-                context.rests_on_target(index, span, ADDS);
-                context.must_agree(index, span, ADDS);
-                if before.ended && (context.source.is(ADDS) || context.target.is(ADDS)) {
-                    context.add_once(index, ENDED, Diagnostic::new(Code::Conditional, span, ENDED));
-                }
-            }
+    each_step(module, &facts, step, &mut |index, stmt, (before, adds): (Angle, bool)| {
+        if !adds {
+            return;
         }
-    }
+        let span = stmt.site.span;
+        context.rests_on_source(index, span, ADDS);
+        context.rests_on_target(index, span, ADDS);
+        context.must_agree(index, span, ADDS);
+        if before.ended && (context.source.is(ADDS) || context.target.is(ADDS)) {
+            context.add_once(index, ENDED, Diagnostic::new(Code::Conditional, span, ENDED));
+        }
+    });
 }
 
 /// What rotations may have left, on some way.
@@ -67,28 +59,6 @@ impl Lattice for Angle {
         let joined = Self { turned: self.turned || other.turned, ended: self.ended || other.ended };
         std::mem::replace(self, joined) != joined
     }
-}
-
-struct Before<'f> {
-    facts: &'f ModalFacts,
-}
-
-impl Follow for Before<'_> {
-    type Known = Angle;
-
-    fn outside(&self, _: usize) -> Angle {
-        Angle::default()
-    }
-
-    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, angle: &mut Angle) {
-        let mut state = self.facts.at(index, id);
-        for stmt in &block.stmts {
-            step(stmt, &mut state, angle);
-        }
-    }
-
-    // What the library does not have is taken to leave it as it is.
-    fn lose(&self, _: &mut Angle) {}
 }
 
 /// Takes a statement; true for a rotation whose angle may be added to another.

@@ -6,10 +6,10 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::dialect::Question;
-use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::{Block, BlockId, Module, Nc, Stmt};
+use crate::ir::{Module, Nc, Stmt};
+use crate::legalize::each_step::each_step;
 use crate::legalize::features::Features;
-use crate::legalize::{Context, Modal, ModalFacts};
+use crate::legalize::{Context, Modal};
 
 /// True if the library rotates and counts in increments, and the source's table says something of it.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -21,47 +21,18 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Says what rests on the controls.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    let starts = OverCalls::of(module, &Fresh { facts: &facts });
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let mut state = facts.at(index, id);
-            let mut is_fresh = starts.at(index, id).copied().unwrap_or(false);
-            for stmt in &block.stmts {
-                if step(stmt, &mut state, &mut is_fresh) {
-                    context.rests_on_source(index, stmt.site.span, Question::RotationIncrements);
-                    if context.target.behaviour(Question::RotationIncrements).is_some() {
-                        context.rests_on_target(index, stmt.site.span, Question::RotationIncrements);
-                    }
-                }
+    each_step(module, &facts, step, &mut |index, stmt, (_, rests)| {
+        if rests {
+            context.rests_on_source(index, stmt.site.span, Question::RotationIncrements);
+            if context.target.behaviour(Question::RotationIncrements).is_some() {
+                context.rests_on_target(index, stmt.site.span, Question::RotationIncrements);
             }
         }
-    }
+    });
 }
 
-/// Whether a rotation began, and no absolute word followed yet, on some way.
-struct Fresh<'f> {
-    facts: &'f ModalFacts,
-}
-
-impl Follow for Fresh<'_> {
-    type Known = bool;
-
-    fn outside(&self, _: usize) -> bool {
-        false
-    }
-
-    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, fresh: &mut bool) {
-        let mut state = self.facts.at(index, id);
-        for stmt in &block.stmts {
-            step(stmt, &mut state, fresh);
-        }
-    }
-
-    // What the library does not have is taken to leave it as it is.
-    fn lose(&self, _: &mut bool) {}
-}
-
-/// Takes a statement; true for increments right after a rotation.
+/// Takes a statement; true for increments right after a rotation. `fresh` is true where a rotation began, and no absolute word followed
+/// yet, on some way.
 fn step(stmt: &Stmt, state: &mut Modal, fresh: &mut bool) -> bool {
     state.step(stmt);
     let Some(nc) = stmt.kind.nc() else { return false };

@@ -8,11 +8,10 @@
 
 use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::Question;
-use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::{Block, BlockId, Expr, Module, Nc, Place, Stmt, StmtKind};
+use crate::ir::{Expr, Module, Nc, Place, Stmt, StmtKind};
+use crate::legalize::each_step::each_step;
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::{Context, Modal, ModalFacts, Setting};
+use crate::legalize::{Context, Modal, Setting};
 
 const FACT: Question = Question::OffsetActiveImmediately;
 
@@ -29,60 +28,21 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         return;
     }
     let facts = context.modal_facts(module);
-    let starts = OverCalls::of(module, &Writes { facts: &facts });
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let Some(mut stale) = starts.at(index, id).copied() else { continue };
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                if step(stmt, &mut state, &mut stale) {
-                    context.rests_on_source(index, stmt.site.span, FACT);
-                    context.rests_on_target(index, stmt.site.span, FACT);
-                    context.must_agree(index, stmt.site.span, FACT);
-                }
-            }
+    each_step(module, &facts, step, &mut |index, stmt, (_, rests)| {
+        if rests {
+            context.rests_on_source(index, stmt.site.span, FACT);
+            context.rests_on_target(index, stmt.site.span, FACT);
+            context.must_agree(index, stmt.site.span, FACT);
         }
-    }
+    });
 }
 
-/// True where the offset in force was written since it was selected, on some way.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Stale(bool);
-
-impl Lattice for Stale {
-    fn join(&mut self, other: &Self) -> bool {
-        let joined = Self(self.0 || other.0);
-        std::mem::replace(self, joined) != joined
-    }
-}
-
-struct Writes<'f> {
-    facts: &'f ModalFacts,
-}
-
-impl Follow for Writes<'_> {
-    type Known = Stale;
-
-    fn outside(&self, _: usize) -> Stale {
-        Stale::default()
-    }
-
-    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, stale: &mut Stale) {
-        let mut state = self.facts.at(index, id);
-        for stmt in &block.stmts {
-            step(stmt, &mut state, stale);
-        }
-    }
-
-    // What the library does not have is taken to leave it as it is.
-    fn lose(&self, _: &mut Stale) {}
-}
-
-/// Takes a statement; true where it rests on when the offset counts.
-fn step(stmt: &Stmt, state: &mut Modal, stale: &mut Stale) -> bool {
+/// Takes a statement; true where it rests on when the offset counts. `stale` is true where the offset in force was written since it
+/// was selected, on some way.
+fn step(stmt: &Stmt, state: &mut Modal, stale: &mut bool) -> bool {
     let before = *stale;
     if let Some(written) = row(&stmt.kind) {
-        stale.0 |= match state.of(Group::WorkOffset) {
+        *stale |= match state.of(Group::WorkOffset) {
             Setting::Known(Op::ShiftCancel, _) => false,
             Setting::Known(Op::SelectWork, Some(selected)) => {
                 written.is_none_or(|row| row == f64::from(selected))
@@ -91,13 +51,13 @@ fn step(stmt: &Stmt, state: &mut Modal, stale: &mut Stale) -> bool {
         };
     }
     state.step(stmt);
-    let reads = before.0 && reads_position(&stmt.kind);
+    let reads = before && reads_position(&stmt.kind);
     let Some(nc) = stmt.kind.nc() else { return reads };
-    stale.0 &= !nc.ops().any(|op| op.group() == Group::WorkOffset);
-    let rests = stale.0 && goes(nc, state);
+    *stale &= !nc.ops().any(|op| op.group() == Group::WorkOffset);
+    let rests = *stale && goes(nc, state);
     // A block that may be skipped leaves what was.
     if stmt.site.skip.is_some() {
-        stale.join(&before);
+        *stale |= before;
     }
     rests || reads
 }

@@ -6,10 +6,10 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Row, Side};
-use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::{Block, BlockId, Module, Nc, Stmt};
+use crate::ir::{Module, Nc, Stmt};
+use crate::legalize::each_step::each_step;
 use crate::legalize::features::Features;
-use crate::legalize::{Context, Modal, ModalFacts};
+use crate::legalize::{Context, Modal};
 
 /// True if the library compensates and cuts arcs, and one of the controls does not take them together.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -26,53 +26,24 @@ fn forbids(control: &Control) -> bool {
 /// Reports arcs on which compensation begins or ends.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    let starts = OverCalls::of(module, &Waits { facts: &facts });
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let mut state = facts.at(index, id);
-            let mut waiting = starts.at(index, id).copied().unwrap_or(false);
-            for stmt in &block.stmts {
-                if step(stmt, &mut state, &mut waiting) {
-                    let side = if forbids(context.source) { Side::Source } else { Side::Target };
-                    let control = if side == Side::Source { context.source } else { context.target };
-                    let origin =
-                        control.behaviour(Question::RadiusStartsOnArc).map(|row| row.origin().source.clone());
-                    let what = format!(
-                        "cutter compensation begins or ends on this arc: the {side} stops there ({}). Begin and end it on a \
-                         straight move",
-                        origin.unwrap_or_default()
-                    );
-                    context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
-                }
-            }
+    each_step(module, &facts, step, &mut |index, stmt, (_, on_arc)| {
+        if !on_arc {
+            return;
         }
-    }
+        let side = if forbids(context.source) { Side::Source } else { Side::Target };
+        let control = if side == Side::Source { context.source } else { context.target };
+        let origin = control.behaviour(Question::RadiusStartsOnArc).map(|row| row.origin().source.clone());
+        let what = format!(
+            "cutter compensation begins or ends on this arc: the {side} stops there ({}). Begin and end it on a \
+             straight move",
+            origin.unwrap_or_default()
+        );
+        context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+    });
 }
 
-/// Whether compensation was switched, and no move in the plane followed yet, on some way.
-struct Waits<'w> {
-    facts: &'w ModalFacts,
-}
-
-impl Follow for Waits<'_> {
-    type Known = bool;
-
-    fn outside(&self, _: usize) -> bool {
-        false
-    }
-
-    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, waiting: &mut bool) {
-        let mut state = self.facts.at(index, id);
-        for stmt in &block.stmts {
-            step(stmt, &mut state, waiting);
-        }
-    }
-
-    // What the library does not have is taken to leave it as it is.
-    fn lose(&self, _: &mut bool) {}
-}
-
-/// Takes a statement; true where it begins or ends compensation on an arc.
+/// Takes a statement; true where it begins or ends compensation on an arc. `waiting` is true where compensation was switched, and no
+/// move in the plane followed yet, on some way.
 fn step(stmt: &Stmt, state: &mut Modal, waiting: &mut bool) -> bool {
     let was = state.op(Group::RadiusComp);
     state.step(stmt);

@@ -8,10 +8,10 @@
 use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::{Control, Machine, Question};
 use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::{Block, BlockId, Expr, Module, Nc, Place, Stmt, StmtKind};
-use crate::legalize::features::Features;
-use crate::legalize::{Context, Modal, ModalFacts, Setting};
+use crate::ir::{Expr, Module, Nc, Place, Stmt, StmtKind};
+use crate::legalize::each_step::each_step;
+use crate::legalize::features::{Feature, Features};
+use crate::legalize::{Context, Modal, Setting};
 
 const LENGTH: Question = Question::LengthActiveImmediately;
 const RADIUS: Question = Question::RadiusActiveImmediately;
@@ -24,8 +24,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     };
     [context.source, context.target].iter().all(says)
         && !context.source.is_same_machine(context.target)
-        && (features.has(crate::legalize::features::Feature::System)
-            || features.any_op(|op| cell_of(op).is_some()))
+        && (features.has(Feature::System) || features.any_op(|op| cell_of(op).is_some()))
         && (features.role(Role::LengthOffset) || features.role(Role::RadiusOffset))
 }
 
@@ -36,20 +35,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         return;
     }
     let facts = context.modal_facts(module);
-    let starts = OverCalls::of(module, &Writes { facts: &facts });
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let Some(mut stale) = starts.at(index, id).copied() else { continue };
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                for question in step(stmt, &mut state, &mut stale).into_iter().flatten() {
-                    context.rests_on_source(index, stmt.site.span, question);
-                    context.rests_on_target(index, stmt.site.span, question);
-                    context.must_agree(index, stmt.site.span, question);
-                }
-            }
+    each_step(module, &facts, step, &mut |index, stmt, (_, rests)| {
+        for question in rests.into_iter().flatten() {
+            context.rests_on_source(index, stmt.site.span, question);
+            context.rests_on_target(index, stmt.site.span, question);
+            context.must_agree(index, stmt.site.span, question);
         }
-    }
+    });
 }
 
 /// What was written while it was in force, and not named since, on some way.
@@ -64,28 +56,6 @@ impl Lattice for Stale {
         let joined = Self { length: self.length || other.length, radius: self.radius || other.radius };
         std::mem::replace(self, joined) != joined
     }
-}
-
-struct Writes<'f> {
-    facts: &'f ModalFacts,
-}
-
-impl Follow for Writes<'_> {
-    type Known = Stale;
-
-    fn outside(&self, _: usize) -> Stale {
-        Stale::default()
-    }
-
-    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, stale: &mut Stale) {
-        let mut state = self.facts.at(index, id);
-        for stmt in &block.stmts {
-            step(stmt, &mut state, stale);
-        }
-    }
-
-    // What the library does not have is taken to leave it as it is.
-    fn lose(&self, _: &mut Stale) {}
 }
 
 /// Takes a statement; what it rests on.
