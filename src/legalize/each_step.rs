@@ -37,7 +37,7 @@ pub(in crate::legalize) fn each_step<K: Lattice + Clone + Default, T>(
     module: &Module,
     facts: &ModalFacts,
     step: Step<K, T>,
-    told: &mut dyn FnMut(usize, &Stmt, (K, T)),
+    mut told: impl FnMut(usize, &Stmt, (K, T)),
 ) {
     let starts = OverCalls::of(module, &Steps { facts, step });
     for (index, program) in module.programs.iter().enumerate() {

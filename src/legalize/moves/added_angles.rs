@@ -31,7 +31,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Says what rests on the controls.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    each_step(module, &facts, step, &mut |index, stmt, (before, adds): (Angle, bool)| {
+    each_step(module, &facts, step, |index, stmt, (before, adds): (Angle, bool)| {
         if !adds {
             return;
         }

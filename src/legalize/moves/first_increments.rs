@@ -21,7 +21,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Says what rests on the controls.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    each_step(module, &facts, step, &mut |index, stmt, (_, rests)| {
+    each_step(module, &facts, step, |index, stmt, (_, rests)| {
         if rests {
             context.rests_on_source(index, stmt.site.span, Question::RotationIncrements);
             if context.target.behaviour(Question::RotationIncrements).is_some() {

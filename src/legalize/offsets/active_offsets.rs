@@ -28,7 +28,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         return;
     }
     let facts = context.modal_facts(module);
-    each_step(module, &facts, step, &mut |index, stmt, (_, rests)| {
+    each_step(module, &facts, step, |index, stmt, (_, rests)| {
         if rests {
             context.rests_on_source(index, stmt.site.span, FACT);
             context.rests_on_target(index, stmt.site.span, FACT);

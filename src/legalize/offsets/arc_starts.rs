@@ -26,7 +26,7 @@ fn forbids(control: &Control) -> bool {
 /// Reports arcs on which compensation begins or ends.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    each_step(module, &facts, step, &mut |index, stmt, (_, on_arc)| {
+    each_step(module, &facts, step, |index, stmt, (_, on_arc)| {
         if !on_arc {
             return;
         }

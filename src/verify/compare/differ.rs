@@ -7,7 +7,7 @@ use crate::control::Stop;
 use crate::control::trace::{EventKind, Leg, Position};
 
 /// Seconds by which waits may lie apart: words count milliseconds, and round to the nearest.
-const LEAST_WAIT: f64 = 0.000_501;
+pub(super) const LEAST_WAIT: f64 = 0.000_501;
 
 /// What differs where only the feed does.
 pub const ANOTHER_FEED: &str = "the feed differs";

@@ -23,7 +23,7 @@ use super::threads;
 use super::tolerance::Tolerance;
 use super::unseen::{before_alarm, told_at};
 use super::variables::variables_differ;
-use super::waits::together;
+use super::waits::as_long;
 use crate::canon::Op;
 use crate::control::Run;
 use crate::control::trace::{EventKind, Position, Told};
@@ -85,8 +85,8 @@ pub(super) fn acts<'r>(
     if brought(source.0.control, target.0.control) {
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
-    [(ours, source.1), (theirs, target.1)]
-        .map(|(acts, run)| joined(threads::again(together(acts, is_cut(run))), is_cut(run)))
+    let [ours, theirs] = [ours, theirs].map(threads::again);
+    [joined(ours, is_cut(source.1)), joined(theirs, is_cut(target.1))]
 }
 
 /// Two runs side by side.
@@ -174,11 +174,11 @@ impl<'p, 'r> Pairs<'p, 'r> {
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
             let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
-            let unseen = before_alarm([here, there]);
-            if unseen != [0; 2] {
-                here.iter().take(unseen[0]).for_each(|act| self.moved(0, act));
-                there.iter().take(unseen[1]).for_each(|act| self.moved(1, act));
-                (i, j) = (i + unseen[0], j + unseen[1]);
+            let passed = as_long([here, there], cut).unwrap_or_else(|| before_alarm([here, there]));
+            if passed != [0; 2] {
+                here.iter().take(passed[0]).for_each(|act| self.moved(0, act));
+                there.iter().take(passed[1]).for_each(|act| self.moved(1, act));
+                (i, j) = (i + passed[0], j + passed[1]);
                 continue;
             }
             let ended = |(acts, other): (&&[Act<'r>], usize)| !self.one_side && self.runs[other].ended(acts);

@@ -3,28 +3,32 @@
 //! A wait that is too long for one word of the target becomes several. Nothing stands between them, so that the machine
 //! waits as long as all of them together. A run that is cut may end amid them: how long it would have waited nobody knows.
 
-use super::observe::{Act, What};
+use super::differ::LEAST_WAIT;
+use super::observe::Act;
 use crate::control::trace::EventKind;
 
-/// One wait in the place of several in a row; none at the end of a run that is `cut`.
-pub(super) fn together(acts: Vec<Act<'_>>, cut: bool) -> Vec<Act<'_>> {
-    let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
-    for act in acts {
-        match (out.last_mut(), &*act.what) {
-            (Some(last), EventKind::Dwell { seconds }) if is_wait(last) => {
-                let before = if let EventKind::Dwell { seconds } = *last.what { seconds } else { 0.0 };
-                last.what = What::other(EventKind::Dwell { seconds: before + seconds });
-                last.rounded += act.rounded;
-            }
-            _ => out.push(act),
+/// How many waits of each side are as long as those of the other, where both sides wait and one of them in parts.
+pub(super) fn as_long([ours, theirs]: [&[Act<'_>]; 2], cut: bool) -> Option<[usize; 2]> {
+    let mut waited = [seconds(ours, 0)?, seconds(theirs, 0)?];
+    let mut count = [1, 1];
+    loop {
+        let [a, b] = waited;
+        if (a - b).abs() <= LEAST_WAIT * count[0].max(count[1]) as f64 {
+            return Some(count);
         }
+        let (side, acts) = if a < b { (0, ours) } else { (1, theirs) };
+        match seconds(acts, count[side]) {
+            Some(more) => waited[side] += more,
+            None => return (cut && acts.len() == count[side]).then_some(count),
+        }
+        count[side] += 1;
     }
-    if cut && out.last().is_some_and(is_wait) {
-        out.pop();
-    }
-    out
 }
 
-fn is_wait(act: &Act<'_>) -> bool {
-    matches!(*act.what, EventKind::Dwell { .. })
+/// How long an act waits, if it is a wait.
+fn seconds(acts: &[Act<'_>], at: usize) -> Option<f64> {
+    match *acts.get(at)?.what {
+        EventKind::Dwell { seconds } => Some(seconds),
+        _ => None,
+    }
 }
