@@ -34,7 +34,7 @@ pub use crate::ir::analysis::{Modal, ModalFacts, Setting, calls_of, reachable, r
 pub use context::{Context, Copied};
 pub use expressions::split::ThenLines;
 pub use layout::program_numbers::ProgramNumbers;
-pub use moves::start::rests_on;
+pub use moves::start::{rests_on, rests_unwritten};
 pub use registers::locked::Locked;
 pub use registers::map::{Register, Registers};
 pub use registers::names::name_of;

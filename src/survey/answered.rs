@@ -4,7 +4,7 @@
 //! to have the answer of the other machine, or else its first one. If fewer programs are written with such answers than without
 //! them, the questions with several answers are left open.
 
-use super::Survey;
+use super::{AskedStart, Survey};
 use crate::canon::Group;
 use crate::dialect::{
     Control, DecimalPoint, Plain, Profile, Question, Settled, Side, SiteCode, Units, Without,
@@ -34,14 +34,27 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let begins = survey.start.iter().filter(|asked| asked.group != Group::Units);
     let begins: Vec<String> = begins.filter_map(|asked| asked.codes.first().cloned()).collect();
     let start = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &begins)) });
+    let there = begins_there(survey);
+    let start_there = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &there)) });
     let answered = with(
         source,
         codes.chain(asked(source, target)).chain(start).chain(settings(survey, Side::Source)).collect(),
     );
-    let target =
-        with(target, asked(target, source).into_iter().chain(settings(survey, Side::Target)).collect());
+    let of_target = asked(target, source).into_iter().chain(start_there);
+    let target = with(target, of_target.chain(settings(survey, Side::Target)).collect());
     let as_they_are = [answered.clone(), target.clone()];
     Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])
+}
+
+/// What the target begins in: the same as the source, as far as its profile says that.
+fn begins_there(survey: &Survey<'_>) -> Vec<String> {
+    let [source, target] = survey.controls;
+    let code = |asked: &AskedStart| {
+        let mode = source.start().iter().find(|mode| mode.op.group() == asked.group);
+        let same = mode.and_then(|mode| target.code_for(mode.op, &mode.fixed)).map(|row| row.code.clone());
+        same.or_else(|| asked.codes.first().cloned())
+    };
+    survey.start_of_target.iter().filter_map(code).collect()
 }
 
 /// The settings that programs wait for, as a machine might have them.

@@ -60,8 +60,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
             lines.insert_str(0, &format!("{ASKS} gcode_system = \"{system}\" # {of}\n"));
         }
     }
-    if side == Side::Source && !survey.start.is_empty() {
-        asked.insert("start", lines_of_start(&survey.start, control.profile().start.codes.as_deref()));
+    let start = if side == Side::Source { &survey.start } else { &survey.start_of_target };
+    if !start.is_empty() {
+        asked.insert("start", lines_of_start(start, control.profile().start.codes.as_deref()));
     }
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;

@@ -16,6 +16,7 @@ struct Report<'a> {
     taken: Option<String>,
     codes: &'a [AskedCode],
     start: &'a [AskedStart],
+    start_of_target: &'a [AskedStart],
     settings: Vec<Setting<'a>>,
     questions: Vec<Asked<'a>>,
     /// What is asked once all of that is answered.
@@ -72,6 +73,7 @@ pub fn json(survey: &Survey<'_>) -> String {
                 taken: survey.taken.as_ref().map(ToString::to_string),
                 codes: &survey.codes,
                 start: &survey.start,
+                start_of_target: &survey.start_of_target,
                 settings,
                 questions: all(questions),
                 later: all(later),

@@ -49,6 +49,8 @@ pub struct Survey<'a> {
     pub codes: Vec<AskedCode>,
     /// What its programs take from the machine when they begin, and the profile does not say.
     pub start: Vec<AskedStart>,
+    /// What the target must begin in too, and its profile does not say: of programs at whose heads no code can be written.
+    pub start_of_target: Vec<AskedStart>,
     /// Settings of the machines that programs wait for; those of most programs are first.
     pub settings: Vec<AskedSetting>,
     /// What is found in its programs, but for those codes and for what its shape says.
@@ -93,6 +95,8 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let places = Places::new(inputs);
     let shape = Shape::of(inputs, &places, &library);
     let mut start = start::asked(&places, source, &library.module);
+    let start_of_target =
+        target.map_or_else(Vec::new, |target| start::asked_of_target(&places, target, &library.module));
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),
@@ -122,6 +126,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         shape,
         codes,
         start,
+        start_of_target,
         settings,
         rest: conversion,
         then: Vec::new(),

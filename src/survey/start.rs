@@ -5,7 +5,7 @@ use super::shape::{NAMED, Places};
 use crate::canon::{Group, Op, Role};
 use crate::dialect::{CODE_SYSTEM, Control, StartMode};
 use crate::ir::Module;
-use crate::legalize::rests_on;
+use crate::legalize::{rests_on, rests_unwritten};
 use crate::library::{Input, by_other_systems, understood};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -116,15 +116,31 @@ pub(super) fn asked_by_others(places: &Places<'_>, inputs: &[Input], source: &Co
 
 /// The modes that the profile does not say; those that most programs rest on are first.
 pub(super) fn asked(places: &Places<'_>, source: &Control, module: &Module) -> Vec<AskedStart> {
-    let rests = rests_on(module);
+    open(places, source, module, &rests_on(module))
+}
+
+/// The modes that the profile of the target does not say, of programs at whose heads no code can be written.
+pub(super) fn asked_of_target(places: &Places<'_>, target: &Control, module: &Module) -> Vec<AskedStart> {
+    let mut rests = rests_unwritten(module);
+    // The unit is told where `units` is.
+    rests.iter_mut().for_each(|rests| _ = rests.remove(&Group::Units));
+    open(places, target, module, &rests)
+}
+
+fn open(
+    places: &Places<'_>,
+    control: &Control,
+    module: &Module,
+    rests: &[BTreeSet<Group>],
+) -> Vec<AskedStart> {
     let is_said = |group: Group| {
-        let unit = group == Group::Units && source.units().is_some();
-        unit || source.start().iter().any(|mode| mode.op.group() == group)
+        let unit = group == Group::Units && control.units().is_some();
+        unit || control.start().iter().any(|mode| mode.op.group() == group)
     };
     let of_group = |group: Group| {
-        let programs = module.programs.iter().zip(&rests).filter(|(_, rests)| rests.contains(&group));
+        let programs = module.programs.iter().zip(rests).filter(|(_, rests)| rests.contains(&group));
         let programs: Vec<_> = programs.map(|(program, _)| program).collect();
-        let codes = codes(source, group);
+        let codes = codes(control, group);
         // Of a single one there is nothing to ask: the machine is always in it.
         let asks = !programs.is_empty() && codes.len() > 1 && !is_said(group);
         asks.then(|| AskedStart {

@@ -20,7 +20,8 @@ pub fn text(survey: &Survey<'_>) -> String {
     if !survey.codes.is_empty() {
         codes(&mut out, &survey.codes);
     }
-    start(&mut out, &survey.start);
+    start(&mut out, &survey.start, Side::Source);
+    start(&mut out, &survey.start_of_target, Side::Target);
     out.push_str(&survey.with_questions(|questions| asked(questions, "--format json has")));
     settings(&mut out, &survey.settings, survey.controls);
     let later = survey.with_later(|questions| asked(questions, "--format json has"));
@@ -104,14 +105,20 @@ fn codes(out: &mut String, codes: &[AskedCode]) {
     }
 }
 
-fn start(out: &mut String, asked: &[AskedStart]) {
+fn start(out: &mut String, asked: &[AskedStart], side: Side) {
     if asked.is_empty() {
         return;
     }
-    out.push_str("\nWhat programs take from the machine, because they do not say it when they begin:\n");
-    out.push_str(
-        "The source's profile says it under [start]; the machine's page of codes shows it after a reset.\n",
-    );
+    out.push_str(match side {
+        Side::Source => {
+            "\nWhat programs take from the machine, because they do not say it when they begin:\n\
+             The source's profile says it under [start]; the machine's page of codes shows it after a reset.\n"
+        }
+        Side::Target => {
+            "\nWhat the target has to begin in as well, because no code can stand at the head of these programs:\n\
+             The target's profile says it under [start].\n"
+        }
+    });
     for begun @ AskedStart { what, programs, places, .. } in asked {
         let _ =
             writeln!(out, "  {what} ({}) {}: {}", begun.told(), count(*programs), shown(&places.join(", ")));

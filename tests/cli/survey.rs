@@ -148,6 +148,29 @@ fn what_programs_begin_in_is_asked_once() {
     assert!(!shop.read("m.toml").contains("one of each"), "{}", shop.read("m.toml"));
 }
 
+/// At the head of a program that goes back there no code can stand: the target begins in the modes, or it is for review.
+#[test]
+fn what_the_target_must_begin_in_is_asked_of_its_profile() {
+    let shop = Shop::with(&[("lib/a.nc", "O1\nG21 G90 G17 G54\nG0 X1.\nG1 X2. F100.\nM30\n")]);
+    let line = "survey lib --from fanuc --to haas --write m.toml";
+    let survey = json(&shop, &format!("{line} --format json"));
+    assert_eq!(survey["start_of_target"], serde_json::json!([]));
+    let shop = Shop::with(&[("lib/a.nc", "O1\nG21 G90 G17 G54\nG0 X1.\nG1 X2. F100.\nM99\n")]);
+    assert_eq!(shop.run(line).code, 0);
+    let choice = "#? codes = \"G94|G95\"\n";
+    for machine in ["m.toml", "m-to-haas.toml"] {
+        let asked = shop.read(machine);
+        assert!(asked.contains(choice), "{machine}: {asked}");
+    }
+    let convert = "convert lib --machine m.toml --machine m-to-haas.toml --to haas --out out --format json";
+    let outcome = |shop: &Shop| json(shop, convert)["programs"][0]["outcome"].clone();
+    shop.write("m.toml", shop.read("m.toml").replace(choice, "codes = \"G94\"\n").as_bytes());
+    assert_eq!(outcome(&shop), "review");
+    let there = shop.read("m-to-haas.toml").replace(choice, "codes = \"G94\"\n");
+    shop.write("m-to-haas.toml", there.as_bytes());
+    assert_eq!(outcome(&shop), "converted");
+}
+
 /// A setting that a cycle takes its values from is a line of the profile, also if another one hides it at first.
 #[test]
 fn settings_that_cycles_wait_for_are_lines_of_the_profile() {

@@ -93,6 +93,20 @@ pub fn rests_on(module: &Module) -> Vec<BTreeSet<Group>> {
     all
 }
 
+/// Of those, the groups of programs that get no codes at their heads: they may be called, or go back there.
+pub fn rests_unwritten(module: &Module) -> Vec<BTreeSet<Group>> {
+    let called = CalledPrograms::of(module);
+    let alone = alone_among(module, &called);
+    let back = may_come_back(module);
+    let mut all = rests_on(module);
+    for (root, rests) in all.iter_mut().enumerate() {
+        if alone.contains(&root) && !is_entered_again(&module.programs[root], back) {
+            rests.clear();
+        }
+    }
+    all
+}
+
 /// Takes out what the target begins in anyway.
 pub fn drop_alike(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
@@ -123,9 +137,12 @@ pub fn drop_alike(module: &mut Module, context: &mut Context<'_>) -> bool {
 
 /// The main programs that nothing calls, and that go back to nothing.
 fn alone(module: &Module, context: &Context<'_>) -> Vec<usize> {
-    let called = context.called(module);
-    let uncalled = uncalled(module, &called);
-    let mut all = mains(module, &called);
+    alone_among(module, &context.called(module))
+}
+
+fn alone_among(module: &Module, called: &CalledPrograms) -> Vec<usize> {
+    let uncalled = uncalled(module, called);
+    let mut all = mains(module, called);
     all.retain(|root| {
         uncalled.contains(root) && !called.is_guessed(*root) && !returns(&module.programs[*root])
     });

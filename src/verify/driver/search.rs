@@ -23,8 +23,11 @@ const BARREN: usize = 48;
 /// How often a run may execute each block of a long program, on the average.
 const EACH_BLOCK: u64 = 4;
 
-/// Runs that come to no end before a program is given up.
+/// Runs that come to no end before a program is given up: one that has no ways left, and one that has; and how long the later
+/// ones may be.
 const ENDLESS: usize = 4;
+const ENDLESS_WITH_WAYS: usize = 40;
+const ENDLESS_STEPS: u64 = 1_000;
 
 /// Runs of both sides for ways that the target alone has left, after the source has gone all of its own.
 const FOR_THE_TARGET: usize = 48;
@@ -63,7 +66,7 @@ impl Verifier<'_, '_> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
-        let (mut starts, mut is_long) = (Vec::new(), false);
+        let (mut starts, mut is_long): (Vec<Circumstances>, bool) = (Vec::new(), false);
         let mut settled = Settled::default();
         while let Some(mut scenario) = proposals.next() {
             if self.is_out_of_time() {
@@ -81,6 +84,9 @@ impl Verifier<'_, '_> {
             if is_long {
                 scenario.steps /= SHORTER;
             }
+            if endless >= ENDLESS {
+                scenario.steps = scenario.steps.min(ENDLESS_STEPS);
+            }
             let run = self.run_longer(&mut scenario);
             is_long = run.steps > steps || is_long && is_cut(&run);
             self.tried += 1;
@@ -90,7 +96,8 @@ impl Verifier<'_, '_> {
                 endless += 1;
             }
             let telling = proposals.are_telling();
-            if starts.len() < STARTS || new && starts.len() < NEW_STARTS {
+            let ends = endless < ENDLESS || !is_cut(&run);
+            if ends && (starts.len() < STARTS || new && starts.len() < NEW_STARTS) {
                 starts.push(Circumstances { scenario: scenario.clone(), theirs: self.theirs.clone() });
             }
             let spare = self.compared < effort.fewest && self.tried.is_multiple_of(2);
@@ -109,14 +116,17 @@ impl Verifier<'_, '_> {
                     || self.is_settled(&mut settled, (&scenario, &run), there, &found));
             if self.witness.is_some()
                 || done
-                || endless >= ENDLESS
+                || self.gives_up(endless)
                 || self.compared >= effort.scenarios
                 || self.steps >= effort.all_steps
             {
                 break;
             }
         }
-        if endless < ENDLESS && !self.went_every_way() && !settled.is_known() {
+        if endless >= ENDLESS {
+            starts.retain(|start| start.scenario.steps <= ENDLESS_STEPS);
+        }
+        if !self.went_every_way() && !settled.is_known() {
             self.steer(there, &found, starts);
         }
         self.theirs.clear();
@@ -157,6 +167,12 @@ impl Verifier<'_, '_> {
             self.because(Why::OutOfTime, text);
         }
         is_up
+    }
+
+    /// True after so many runs that came to no end. A program that waits for one value of an input comes to its end with that
+    /// value alone, so one with ways left gets more of them.
+    fn gives_up(&self, endless: usize) -> bool {
+        endless >= if self.coverage.is_complete() { ENDLESS } else { ENDLESS_WITH_WAYS }
     }
 
     /// True where neither side has ways left.

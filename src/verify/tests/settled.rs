@@ -90,6 +90,9 @@ fn what_comes_from_outside_sends_runs_elsewhere() {
     // It jumps where an input is off.
     assert!(settled_on("haas", "G0X1."));
     assert!(!settled_on("haas", "M96P5Q8\nG0X1."));
+    // L is a count, and no subroutine: what the called blocks write is written.
+    assert!(settled_on("haas", "M97P7L2\nGOTO5\nN7#500=2\nIF[#500GT1]GOTO8\nN8M99"));
+    assert!(!settled_on("haas", "M97P7L2\nGOTO5\nN7IF[#500GT1]GOTO8\nN8M99"));
 }
 
 /// A macro that checks its arguments, and a caller that gives it right ones.

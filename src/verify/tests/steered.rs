@@ -20,6 +20,15 @@ fn a_product_that_must_be_met_exactly() {
     hides("haas", text, ("N9G0X2.", "N9G0X3."));
 }
 
+/// Most circumstances never end it.
+#[test]
+fn a_loop_that_waits_for_one_value() {
+    let text = "O1\nG21G90G54G17G94\nN1IF[#500EQ3]GOTO2\nIF[#500EQ4]GOTO3\nG4P100\nGOTO1\nN2G0X1.\nM30\n\
+                N3IF[#501EQ0]GOTO4\nG0X2.\nM30\nN4G0X3.\nM30\n";
+    hides("fanuc", text, ("N4G0X3.", "N4G0X4."));
+    hides("haas", text, ("G0X2.", "G0X5."));
+}
+
 #[test]
 fn conditions_behind_conditions() {
     let text = "O1\nG21G90G54G17G94\n#1=#500*#500-#501\nIF[#1LT7000]GOTO8\n#2=#501*3+#502\nIF[#2GT-7777]GOTO8\n\

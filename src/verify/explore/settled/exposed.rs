@@ -60,6 +60,8 @@ struct Walk<'c> {
 impl<'c> Walk<'c> {
     fn new(blocks: &[Block], control: &'c Control) -> Self {
         let (mut in_words, mut anywhere, mut nothing) = (BTreeSet::new(), false, false);
+        // Where subroutines have no end of their own, L is a count and no more.
+        let is_called_by_l = control.code_for(Op::SubEnd, &BTreeMap::new()).is_some();
         for block in blocks {
             for_each_item(&block.items, &mut |item| match &item.kind {
                 ItemKind::Goto(Target::Computed(_))
@@ -67,7 +69,7 @@ impl<'c> Walk<'c> {
                     anywhere = true;
                 }
                 ItemKind::Word(word) => match (word.letter, word.value.as_ref().map(|value| &value.kind)) {
-                    ('L', _) => nothing = true,
+                    ('L', _) => nothing |= is_called_by_l,
                     ('P' | 'Q', Some(ExprKind::Number(number))) => {
                         in_words.insert(number.value as u32);
                     }
