@@ -10,7 +10,7 @@ use crate::dialect::Control;
 use crate::library::{Home, Input, Lock, Manifest, is_pending, write_file};
 use crate::report;
 use crate::syntax::{ParsedFile, parse_file};
-use crate::verify::{Assumptions, Certificate, Effort, Job, Outcome, Side, Spent, SymbolMap, verify};
+use crate::verify::{Assumptions, Certificate, Effort, Job, Outcome, Side, Spent, SymbolMap, beside, verify};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -140,6 +140,7 @@ fn certify(
     let (ours_parsed, theirs_parsed) = (parsed(ours, source), parsed(theirs, target));
     let (ours, theirs) = (loaded(ours, &ours_parsed), loaded(theirs, &theirs_parsed));
     let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
+    let (from, to) = beside(from, to, names);
     let assumptions = Assumptions::new();
     let job = Job {
         source: &from,

@@ -3,6 +3,7 @@
 use super::by_need::{ByNeed, Stretch};
 use super::kept::{EditedShelf, Shelf};
 use super::machine::Rules;
+use super::outside::Outside;
 use super::trace::{Event, Program};
 use crate::dialect::Control;
 use crate::syntax::{Block, ItemKind, ParsedFile, Parser, ProgramName};
@@ -33,6 +34,8 @@ pub struct Library<'f> {
     by_need: Option<Arc<ByNeed>>,
     bound: Option<Arc<Bound<'f>>>,
     edited: Option<Edited<'f>>,
+    /// The programs that stand in the machine and are no part of it.
+    pub outside: Arc<Outside>,
 }
 
 /// A program whose text was edited: its place, its blocks, and the bytes that these are read from.
@@ -65,7 +68,15 @@ impl<'f> Library<'f> {
     /// Finds the programs of files.
     pub fn new(files: &'f [LoadedFile<'f>]) -> Self {
         let sections = Arc::new(Sections::new(files));
-        Self { files, sections, listener: None, by_need: None, bound: None, edited: None }
+        Self {
+            files,
+            sections,
+            listener: None,
+            by_need: None,
+            bound: None,
+            edited: None,
+            outside: Arc::default(),
+        }
     }
 
     /// The same of files whose blocks are not held, but read `size` bytes at a time where a run comes to them. Only an
@@ -73,7 +84,7 @@ impl<'f> Library<'f> {
     pub fn read_by_need(files: &'f [LoadedFile<'f>], parser: Parser, size: usize) -> Self {
         let (by_need, sections) = ByNeed::new(files, parser, size);
         let (sections, by_need) = (Arc::new(sections), Some(Arc::new(by_need)));
-        Self { files, sections, listener: None, by_need, bound: None, edited: None }
+        Self { files, sections, listener: None, by_need, bound: None, edited: None, outside: Arc::default() }
     }
 
     /// The stretches in which the blocks of the program at a place are read.
@@ -102,6 +113,11 @@ impl<'f> Library<'f> {
     pub fn bound_to(self, control: &'f Control) -> Self {
         let bound = Bound { control, rules: Arc::new(Rules::new(control)), shelf: Shelf::default() };
         Self { bound: Some(Arc::new(bound)), ..self }
+    }
+
+    /// The same beside programs that stand in the machine.
+    pub fn beside(self, outside: Outside) -> Self {
+        Self { outside: Arc::new(outside), ..self }
     }
 
     fn bound(&self, control: &Control) -> Option<&Bound<'f>> {

@@ -26,6 +26,7 @@ pub mod library;
 pub mod machine;
 mod macro_b;
 mod outcome;
+pub mod outside;
 pub mod scenario;
 mod session;
 mod table;

@@ -57,6 +57,12 @@ pub struct Scenario {
     /// Settings of the control that are another than its profile says, by name: lengths in the unit of the control.
     #[serde(skip)]
     pub settings: BTreeMap<String, f64>,
+    /// Seed of what programs that stand in the machine leave behind; 0 if they leave all as it was.
+    #[serde(skip)]
+    pub outside: u64,
+    /// True where they leave other modes too.
+    #[serde(skip)]
+    pub outside_modes: bool,
     /// State that the machine does not model, by name and subscripts: inputs, settings, parameters. Else 0.
     pub state: Vec<StateValue>,
     /// Date, as yyyymmdd.
@@ -147,6 +153,8 @@ impl Default for Scenario {
         Self {
             variables: BTreeMap::new(),
             settings: BTreeMap::new(),
+            outside: 0,
+            outside_modes: false,
             called: false,
             sets_named: false,
             inch: None,

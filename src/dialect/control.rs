@@ -5,7 +5,7 @@ use super::profile::{Machine, Profile, Units, VariableRun};
 use super::start::StartMode;
 use super::{
     BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Question,
-    SameCells, Setting, Statement, Text, VariableClass,
+    SameCells, Setting, Standing, Statement, Text, VariableClass,
 };
 use crate::canon::{Func, Op, Sys};
 use foldhash::{HashMap, HashMapExt};
@@ -27,6 +27,7 @@ pub struct Control {
     /// Values of the settings, by name, the profile's over the table's.
     pub(super) settings: BTreeMap<String, String>,
     pub(super) reserved: Vec<VariableRun>,
+    pub(super) standing: Standing,
     /// Rows of each code, with the words that each wants beside it.
     pub(super) codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>>,
     pub(super) targets: HashMap<Op, Vec<usize>>,
@@ -50,7 +51,7 @@ impl Control {
         dialect: Dialect,
         profile: Profile,
         settings: BTreeMap<String, String>,
-        reserved: Vec<VariableRun>,
+        (reserved, standing): (Vec<VariableRun>, Standing),
     ) -> Self {
         let mut codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>> = HashMap::new();
         let mut targets: HashMap<Op, Vec<usize>> = HashMap::new();
@@ -86,6 +87,7 @@ impl Control {
             profile,
             settings,
             reserved,
+            standing,
             codes,
             targets,
             words,

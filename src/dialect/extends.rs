@@ -76,6 +76,7 @@ impl Profile {
             start: Start { codes: self.start.codes.or(base.start.codes) },
             reserved: both(base.reserved, self.reserved),
             variables: self.variables.or(base.variables),
+            programs: both(base.programs, self.programs),
             confirm: both(base.confirm, self.confirm),
             site,
             signal,

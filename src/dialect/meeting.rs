@@ -52,9 +52,8 @@ impl Control {
             return Err(NoMeeting(faults_as_text(&name, &text, &faults).trim_end().to_owned()));
         }
         let again = |control: Self, dialect| {
-            let start = control.start;
-            let mut made =
-                Self::index(control.entry, dialect, control.profile, control.settings, control.reserved);
+            let (start, marks) = (control.start, (control.reserved, control.standing));
+            let mut made = Self::index(control.entry, dialect, control.profile, control.settings, marks);
             made.start = start;
             made
         };

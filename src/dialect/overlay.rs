@@ -30,6 +30,8 @@ impl Control {
         let table = dialect.variables.clone();
         overlay.keep_variables(&mut dialect);
         let reserved = overlay.reserved(&table, &dialect);
+        let has_locals = dialect.variables.iter().any(|class| class.class == "local");
+        let standing = overlay.standing(dialect.text.program_max, has_locals);
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
@@ -38,7 +40,7 @@ impl Control {
             return Err(reader.faults);
         }
         let place = profile.place("start:codes").unwrap_or(0..0);
-        let mut control = Control::index(entry, dialect, profile, settings, reserved);
+        let mut control = Control::index(entry, dialect, profile, settings, (reserved, standing));
         match control.read_start() {
             Ok(()) => Ok(control),
             Err((message, help)) => {

@@ -55,6 +55,9 @@ pub struct Profile {
     /// The variables that there are; absent where the table's classes all are. Ones that the table has not say what they are:
     /// `#98000-#98499 retained`.
     pub variables: Option<Vec<String>>,
+    /// Programs that stand in the machine and do the same as those of their numbers on the machine that calls of them come
+    /// from: `O9810`, `O9700-O9999`, `O910002 as O8006`.
+    pub programs: Vec<String>,
     /// Facts that the shop has checked, by the name that diagnostics give them.
     pub confirm: Vec<String>,
     /// Codes that the machine's builder or the shop defined.

@@ -7,7 +7,7 @@ use crate::control::{LoadedFile, ProgramRef};
 use crate::dialect::Control;
 use crate::syntax::{Block, ParsedFile, parse_file};
 use crate::text::Span;
-use crate::verify::{Assumptions, Effort, Job, Picture, Side, Spent, SymbolMap, pictured};
+use crate::verify::{Assumptions, Effort, Job, Picture, Side, Spent, SymbolMap, beside, pictured};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -74,8 +74,9 @@ pub fn with_pairs<T>(
     let theirs: Vec<LoadedFile<'_>> = (texts.iter().zip(&theirs))
         .map(|((at, _), parsed)| LoadedFile { name: &inputs[*at].name, parsed })
         .collect();
-    let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
     let names = names(conversion);
+    let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
+    let (from, to) = beside(from, to, &names);
     let programs = programs_of(conversion, from.programs());
     let programs = programs.into_iter().map(|(program, at)| (at, program)).collect();
     let job = Job {

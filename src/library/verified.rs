@@ -71,8 +71,9 @@ pub fn judge_telling(
         .zip(&theirs)
         .map(|((at, _), parsed)| LoadedFile { name: &inputs[*at].name, parsed })
         .collect();
-    let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
     let names = super::pairs::names(conversion);
+    let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
+    let (from, to) = verify::beside(from, to, &names);
     let all = from.programs();
     let reports = programs_of(conversion, all);
     let assumed = |at: &usize| assumptions(&conversion.programs[*at]);

@@ -230,6 +230,7 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
             format!("call    {name}")
         }
         Leave => "return".into(),
+        Outside(call) => format!("call    {}, which stands in the machine", call.name()),
         Unsure { fact } => format!("unsure  {fact}"),
     }
 }

@@ -40,7 +40,9 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
         source,
         codes.chain(asked(source, target)).chain(start).chain(settings(survey, Side::Source)).collect(),
     );
-    let of_target = asked(target, source).into_iter().chain(start_there);
+    let programs = super::programs::entries(survey);
+    let stand: Answer = Box::new(move |profile| profile.programs.extend(programs.iter().cloned()));
+    let of_target = asked(target, source).into_iter().chain(start_there).chain([stand]);
     let target = with(target, of_target.chain(settings(survey, Side::Target)).collect());
     let as_they_are = [answered.clone(), target.clone()];
     Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])

@@ -70,8 +70,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     let point = survey.with_questions(|questions| point(questions, control));
     let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
     text = with_machine(&text, control.profile(), lathe.map(|(line, _)| line), point);
-    if side == Side::Source {
-        codes(&mut text, survey);
+    match side {
+        Side::Source => codes(&mut text, survey),
+        Side::Target => text = super::programs::asked_in(&text, survey),
     }
     match read(&text)? == before {
         true => Ok(text),
@@ -203,7 +204,7 @@ fn inserted(text: &str, section: &str, lines: &str) -> Result<String, Unfit> {
 }
 
 /// The end of the line that names the dialect: what stands there is in no section.
-fn after_dialect(text: &str, profile: &Profile) -> usize {
+pub(super) fn after_dialect(text: &str, profile: &Profile) -> usize {
     let head = profile.place("dialect").map(|place| place.end).unwrap_or_default();
     text.get(head..).and_then(|rest| rest.find('\n')).map_or(text.len(), |end| head + end + 1)
 }
@@ -254,7 +255,7 @@ fn with_machine(text: &str, said: &Profile, lathe: Option<String>, point: Option
     spliced(text, after_dialect(text, &profile), &lines)
 }
 
-fn spliced(text: &str, at: usize, more: &str) -> String {
+pub(super) fn spliced(text: &str, at: usize, more: &str) -> String {
     let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
     format!("{before}{more}{after}")
 }

@@ -9,6 +9,7 @@ mod codes;
 mod filled;
 mod json;
 mod keys;
+mod programs;
 mod shape;
 mod start;
 mod text;

@@ -38,6 +38,13 @@ pub struct Shape {
     pub folders: Vec<String>,
 }
 
+impl Missing {
+    /// Its number; none for one with a name.
+    pub(super) fn number(&self) -> Option<u32> {
+        self.name.strip_prefix('O')?.parse().ok()
+    }
+}
+
 /// A program that is called and not in the library.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Missing {
@@ -45,6 +52,9 @@ pub struct Missing {
     pub name: String,
     /// How many programs call it.
     pub programs: usize,
+    /// How many of them call nothing else that is missing.
+    #[serde(skip)]
+    pub frees: usize,
     /// The first places.
     pub places: Vec<String>,
 }
@@ -89,11 +99,15 @@ impl Shape {
             }
         }
         shape.called = called.len();
+        let mut waits: BTreeMap<usize, usize> = BTreeMap::new();
+        missing.values().flat_map(|(callers, _)| callers).for_each(|at| *waits.entry(*at).or_default() += 1);
+        let frees = |callers: &BTreeSet<usize>| callers.iter().filter(|at| waits.get(at) == Some(&1)).count();
         shape.missing = missing
             .into_iter()
             .map(|(name, (callers, places))| Missing {
                 name: name.to_string(),
                 programs: callers.len(),
+                frees: frees(&callers),
                 places,
             })
             .collect();

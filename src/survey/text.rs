@@ -49,7 +49,7 @@ fn shape(out: &mut String, shape: &Shape, taken: Option<&TakenAsLathe>) {
     }
     let called = if *called == 1 { "1 program is".into() } else { format!("{called} programs are") };
     let _ = writeln!(out, "calls     {called} called by others of the library");
-    for Missing { name, programs, places } in missing.iter().take(LISTED) {
+    for Missing { name, programs, places, .. } in missing.iter().take(LISTED) {
         let (name, places) = (shown(name), shown(&places.join(", ")).into_owned());
         let call = if *programs == 1 { "calls" } else { "call" };
         let _ = writeln!(out, "missing   {name}, which {} {call}: {places}", count(*programs));

@@ -31,4 +31,4 @@ pub use certificate::{
 };
 pub use driver::{Picture, listed, pictured, prepare, verify};
 pub use explore::NotReached;
-pub use sides::{Assumptions, Effort, Job, Side, Spent, SymbolMap, class_of, name_of, sha256};
+pub use sides::{Assumptions, Effort, Job, Side, Spent, SymbolMap, beside, class_of, name_of, sha256};

@@ -11,6 +11,7 @@ mod ends;
 mod links;
 mod names;
 mod nesting;
+mod outside;
 mod random;
 mod running;
 mod said;

@@ -58,27 +58,33 @@ pub struct ExitState {
 impl Machine {
     /// What is in force now, at the end of a run: the machine's tables go with it.
     pub fn left(&mut self) -> ExitState {
-        let rounded = self.off_by();
-        let is_lost = self.length_lost.is_some();
-        let length = if is_lost { self.length_value() } else { self.frame.length };
+        let length = if self.length_lost.is_some() { self.length_value() } else { self.frame.length };
         self.frame.length = 0.0;
+        let mut state = self.state();
+        state.length.0 = length;
+        (self.work_offsets, self.tools) = Default::default();
+        state
+    }
+
+    /// What is in force now; the length is not looked up.
+    pub(super) fn state(&self) -> ExitState {
         ExitState {
             modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
             unit_named: self.unit_named,
             feed: self.feed,
             work: self.frame.number,
-            shift: std::array::from_fn(|axis| self.frame.shift(axis)),
-            length: (length, is_lost),
-            rounded,
+            shift: self.frame.shifts(),
+            length: (0.0, self.length_lost.is_some()),
+            rounded: self.off_by(),
             read: self.rounding.read,
             mirror: self.frame.mirror,
             scale: self.frame.scale,
             rotation: self.frame.rotation,
             position: self.position,
             external_is_local: self.rules.local_is_external.peek(),
-            work_offsets: std::mem::take(&mut self.work_offsets),
+            work_offsets: self.work_offsets.clone(),
             external: self.frame.external,
-            tools: std::mem::take(&mut self.tools),
+            tools: self.tools.clone(),
         }
     }
 }

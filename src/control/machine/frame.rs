@@ -57,6 +57,11 @@ impl Frame {
         }
     }
 
+    /// The same of all axes.
+    pub fn shifts(&self) -> Axes {
+        std::array::from_fn(|axis| self.shift(axis))
+    }
+
     /// True where more than a shift is in force.
     pub fn is_shaped(&self) -> bool {
         self.rotation.is_some() || self.scale.is_some() || self.mirror.iter().any(Option::is_some)

@@ -19,6 +19,7 @@ mod inverse;
 mod lathe;
 mod motion;
 mod offsets;
+mod outside;
 mod pauses;
 mod returns;
 mod rigid;
@@ -35,6 +36,7 @@ pub use command::Command;
 pub use exit_state::ExitState;
 pub use frame::{Frame, Rotation};
 pub use lathe::{Contour, Contoured};
+pub use outside::LEFT;
 pub(super) use rules::Rules;
 
 use super::outcome::Stop;

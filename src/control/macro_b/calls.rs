@@ -53,9 +53,18 @@ impl<'c> Frame<'c> {
     }
 }
 
+/// What a call runs.
+#[derive(Clone, Copy)]
+pub enum Called {
+    /// A program of the library, by section.
+    Section(usize),
+    /// One that stands in the machine, by its number on the source.
+    Outside(u32),
+}
+
 /// A modal call in force.
 pub struct ModalCall {
-    program: usize,
+    program: Called,
     count: u32,
     /// Its locals: set by its own block, kept from call to call.
     locals: Locals,
@@ -77,7 +86,7 @@ impl<'c> Runner<'c> {
         let alias = call.alias;
         let number = alias.map(|alias| f64::from(alias.program)).or(arguments.program);
         let number = number.ok_or_else(|| Halt::Error("a call without its program".into()))?;
-        let Some(section) = self.find(number) else { return Err(missing(number)) };
+        let Some(called) = self.called(number) else { return Err(missing(number)) };
         let Some(count) = self.count(arguments.count) else { return Ok(Next::On) };
         let op = self.row(call.row).map_or(Op::CallMacro, |row| row.op);
         if alias.is_some_and(|alias| alias.modal) || op != Op::CallMacro {
@@ -86,7 +95,7 @@ impl<'c> Runner<'c> {
             // Calls that an inner program started end with it.
             self.modal_calls.truncate(visible.max(self.outer_visible()));
             self.modal_calls.push(ModalCall {
-                program: section,
+                program: called,
                 count,
                 locals: arguments.locals,
                 each,
@@ -101,6 +110,10 @@ impl<'c> Runner<'c> {
             }
             return Ok(Next::On);
         }
+        let section = match called {
+            Called::Section(section) => section,
+            Called::Outside(program) => return self.call_outside(program, count, Some(arguments.locals)),
+        };
         let mut frame = self.frame(section, count);
         frame.level = true;
         frame.arguments = Some(arguments.locals);
@@ -117,8 +130,12 @@ impl<'c> Runner<'c> {
     /// A call of a program that shares the caller's locals.
     pub fn call_program(&mut self, number: f64, count: Option<f64>, alias: bool) -> Result<Next, Halt> {
         let (number, count) = self.repeat_digits(number.round(), count);
-        let Some(section) = self.find(number) else { return Err(missing(number)) };
+        let Some(called) = self.called(number) else { return Err(missing(number)) };
         let Some(count) = self.count(count) else { return Ok(Next::On) };
+        let section = match called {
+            Called::Section(section) => section,
+            Called::Outside(program) => return self.call_outside(program, count, None),
+        };
         let mut frame = self.frame(section, count);
         frame.alias |= alias;
         self.push_subprogram(frame)
@@ -136,7 +153,7 @@ impl<'c> Runner<'c> {
     /// `P68003` is six times O8003, where the control reads it so and no program has that number.
     fn repeat_digits(&mut self, number: f64, count: Option<f64>) -> (f64, Option<f64>) {
         let too_long = number > f64::from(self.session.control.text().program_max);
-        if count.is_some() || !too_long || self.find(number).is_some() {
+        if count.is_some() || !too_long || self.called(number).is_some() {
             return (number, count);
         }
         let Some(row) = self.session.control.statement("call.repeat.digits") else { return (number, count) };
@@ -165,13 +182,12 @@ impl<'c> Runner<'c> {
         }
     }
 
-    fn find(&self, number: f64) -> Option<usize> {
+    fn called(&self, number: f64) -> Option<Called> {
         let whole = number.round();
         // In range by the test.
-        (0.0..=f64::from(u32::MAX))
-            .contains(&whole)
-            .then(|| self.session.sections.numbered(whole as u32))
-            .flatten()
+        let whole = (0.0..=f64::from(u32::MAX)).contains(&whole).then_some(whole as u32)?;
+        let section = self.session.sections.numbered(whole).map(Called::Section);
+        section.or_else(|| self.session.library().outside.source_of(whole).map(Called::Outside))
     }
 
     fn frame(&mut self, section: usize, count: u32) -> Frame<'c> {
@@ -185,7 +201,7 @@ impl<'c> Runner<'c> {
 
     /// Starts a program; the caller goes on after its block.
     fn push(&mut self, frame: Frame<'c>) -> Result<Next, Halt> {
-        self.check_depth(&frame)?;
+        self.check_depth(frame.level, self.memory.levels.len() - 1)?;
         if let Some(caller) = self.frames.last_mut() {
             caller.at += 1;
         }
@@ -194,14 +210,14 @@ impl<'c> Runner<'c> {
         Ok(Next::Block)
     }
 
-    fn check_depth(&mut self, frame: &Frame<'c>) -> Result<(), Halt> {
+    /// Stops where a call nests too deep; `levels` of locals are open in it, if it is one `with_level`.
+    pub(super) fn check_depth(&mut self, with_level: bool, levels: usize) -> Result<(), Halt> {
         let depth = self.frames.len();
-        let levels = self.memory.levels.len() - 1;
         let subs = depth - self.frames.iter().filter(|frame| frame.level).count();
         let counts = [
             ("call.all", Some(depth)),
-            ("call.macro", frame.level.then_some(levels)),
-            ("call.subprogram", (!frame.level).then_some(subs)),
+            ("call.macro", with_level.then_some(levels)),
+            ("call.subprogram", (!with_level).then_some(subs)),
         ];
         let control = self.session.control;
         for (name, count) in counts {
@@ -306,7 +322,11 @@ impl<'c> Runner<'c> {
     /// Calls what the innermost modal call in force names; moves of that program call the next outer one.
     pub fn trigger_modal(&mut self) -> Result<Next, Halt> {
         let Some((index, call)) = self.visible_call() else { return Ok(Next::On) };
-        let (section, count, locals, outer) = (call.program, call.count, call.locals, call.outer);
+        let (called, count, locals, outer) = (call.program, call.count, call.locals, call.outer);
+        let section = match called {
+            Called::Section(section) => section,
+            Called::Outside(program) => return self.call_outside(program, count, Some(locals)),
+        };
         let mut frame = self.frame(section, count);
         (frame.level, frame.modal, frame.visible) = (true, Some(index), outer);
         self.memory.levels.push(locals);

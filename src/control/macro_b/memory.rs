@@ -18,6 +18,11 @@ impl Default for Locals {
 }
 
 impl Locals {
+    /// Those that are not vacant.
+    pub fn values(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.values.iter().enumerate().filter_map(|(number, value)| Some((number, (*value)?)))
+    }
+
     /// Sets a local, which may be off by so much; false where there is none of this number.
     pub fn set(&mut self, number: usize, value: Value, off: f64) -> bool {
         match (self.values.get_mut(number), self.off.get_mut(number)) {

@@ -18,6 +18,7 @@ mod meaning;
 mod memory;
 mod numeric;
 mod output;
+mod outside;
 mod parts;
 mod rules;
 mod run;

@@ -61,6 +61,8 @@ pub struct Runner<'c> {
     pub memory: Memory,
     pub frames: Vec<Frame<'c>>,
     pub modal_calls: Vec<ModalCall>,
+    /// Calls so far of programs that stand in the machine.
+    pub calls_outside: u64,
     /// The command in the making, kept to be used again.
     pub command: Command,
     /// Codes of the modal groups as this control numbers them.
@@ -127,6 +129,7 @@ impl<'c> Runner<'c> {
             memory: Memory::new(&scenario.variables),
             frames: Vec::new(),
             modal_calls: Vec::new(),
+            calls_outside: 0,
             command: Command::default(),
             modal: [0.0; 32],
             addresses: [0.0; 27],
@@ -137,7 +140,7 @@ impl<'c> Runner<'c> {
         };
         // The program before this one called for the tool that is in the spindle.
         runner.addresses[20] = f64::from(scenario.tool);
-        runner.start_modes();
+        runner.show_modes(crate::canon::Group::ALL);
         runner.start_words();
         runner
     }
@@ -348,10 +351,9 @@ impl<'c> Runner<'c> {
         self.memory.levels.last().copied().unwrap_or_default()
     }
 
-    /// The codes that are in force before a program says any.
-    fn start_modes(&mut self) {
-        use crate::canon::Group;
-        for group in Group::ALL {
+    /// Takes the codes in force of these groups from the machine.
+    pub fn show_modes(&mut self, groups: &[crate::canon::Group]) {
+        for group in groups {
             let (Some(number), Some(op)) = (group.number(), self.session.machine.modal(*group)) else {
                 continue;
             };

@@ -2,6 +2,7 @@
 
 use crate::canon::{Op, Sys};
 use crate::control::outcome::Stop;
+use crate::control::outside::OutsideCall;
 use crate::control::scenario::{AXES, Axes};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -360,6 +361,8 @@ pub enum EventKind {
     },
     /// A program returned. Not compared.
     Leave,
+    /// A program was called that stands in the machine and is no part of the library: what it does nobody knows.
+    Outside(Box<OutsideCall>),
     /// Something mattered that no source confirms.
     Unsure {
         /// The fact, as machine profiles confirm it: `behaviour:goto.forward.first`; or `machine:...`

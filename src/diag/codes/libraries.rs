@@ -6,7 +6,7 @@ macro_rules! libraries_codes {
     "0601" OutsideLibrary Review "calls a program outside the library"
 "The program calls one that is not among the converted files, or one that is refused and so not written. The call keeps its number. It is not known what the called program does: which variables it changes, which modes it leaves in force, whether it exists on the target.
 
-Convert the whole library in one run, correct what is refused, or check the program on the target by hand."
+Convert the whole library in one run, correct what is refused, or check the program on the target by hand. If the program stands in both machines and does the same there (probing, tool setting, the builder's own), name it under `programs` in the target's profile: it is asked no more, and runs on the emulated controls compare what each side gives it."
 
     "0602" TwinProgram Review "two programs have one number"
 "Two programs of the library have the same number. A control holds only one program of a number, so the shop loads one or the other; the conversion cannot tell which.
@@ -30,6 +30,11 @@ Whoever selects the program at the machine, or calls it from outside the library
 "The conversion of the called program does not do what its source does, as runs on the emulated controls show (MG0801). It is not written, and neither are its callers: they would run something else, or stop with an alarm. Other programs of the file and of the library are written.
 
 Look at the named program first. Once it converts, so do its callers."
+
+    "0607" StandsThere Note "calls a program that stands on the target"
+"The program calls one that is not among the converted files and that the target's profile names under `programs`: it stands in the machine under that number, or under the one that the profile gives it, and does the same as on the source with the same arguments and variables. It is said once for the library.
+
+Nothing is known of what such a program leaves behind. Runs on the emulated controls compare with what it is called, and go on with variables and a position that are drawn."
 
     "0610" LockConflict Error "an earlier conversion has this register"
 "`macroglot.lock` in the output folder keeps registers for programs that were converted before and are not part of this run. A program of this run needs one of them for itself: its variable has that number on both controls, or variables with computed numbers need a row of registers.

@@ -3,15 +3,19 @@
 //! A call of a program that is not in the library stays a call of that number, since the shop may have the program
 //! in the machine; a reviewer must know it, because nothing is known of it. A maker's cycle that is not
 //! in the library has no number on the target and is an error. So is a call with arguments, if the target has no
-//! locals: which registers that program reads is known only when it is converted too.
+//! locals: which registers that program reads is known only when it is converted too. Of a program that the target's
+//! profile names a note says, once for the library, that it stands there.
 
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Callee, Module, TermKind};
+use crate::dialect::{Control, Question};
+use crate::ir::{Callee, Module, StmtKind, TermKind};
+use crate::legalize::calls::standing;
 use crate::legalize::registers::needs::has_locals;
 use crate::legalize::{Context, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use foldhash::HashSet;
+use std::collections::BTreeMap;
 
 /// Reports calls of what is not there.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -30,6 +34,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 fn report(module: &Module, context: &mut Context<'_>) {
+    stand_there(module, context);
     let known: HashSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
@@ -53,6 +58,65 @@ fn report(module: &Module, context: &mut Context<'_>) {
     }
 }
 
+/// Tells once of each program that stands on the target, at the first call of it.
+fn stand_there(module: &Module, context: &mut Context<'_>) {
+    let callers = standing::callers(module, context);
+    let mut told: BTreeMap<u32, (usize, Span, usize)> = BTreeMap::new();
+    for (index, called) in &callers {
+        for block in &module.programs[*index].blocks {
+            for call in calls_of(block) {
+                let Callee::Program(ProgramName::Number(number)) = &call.callee else { continue };
+                if called.contains(number) {
+                    told.entry(*number).or_insert((*index, span_of(block, call), 0));
+                }
+            }
+            // Its own locals may be others when it runs again.
+            for stmt in &block.stmts {
+                if let StmtKind::ModalCall(call) = &stmt.kind
+                    && matches!(&call.callee, Callee::Program(ProgramName::Number(n)) if called.contains(n))
+                {
+                    context.must_agree(*index, stmt.site.span, Question::CallModalSetsLocalsOnce);
+                }
+            }
+        }
+        if let Some(span) = called.iter().find_map(|number| told.get(number)).map(|told| told.1) {
+            offset_in_force(*index, span, context);
+        }
+        for number in called {
+            if let Some((.., programs)) = told.get_mut(number) {
+                *programs += 1;
+            }
+        }
+    }
+    for (number, (index, span, programs)) in told {
+        let name = ProgramName::Number(number);
+        let there = standing::number_of(&name, context).filter(|there| *there != number);
+        let there =
+            there.map(|there| format!(" as {}", ProgramName::Number(there).short())).unwrap_or_default();
+        let calls =
+            if programs == 1 { "1 program calls".to_owned() } else { format!("{programs} programs call") };
+        let name = name.short();
+        let what = format!(
+            "{name} stands on the target{there} and does the same there, as its profile says: {calls} it"
+        );
+        context.add(index, Diagnostic::new(Code::StandsThere, span, what));
+    }
+}
+
+/// A program that probes writes the work offset in force, which may count at once on one of the two machines alone.
+fn offset_in_force(index: usize, span: Span, context: &mut Context<'_>) {
+    let answer = |control: &Control| {
+        let row = control.behaviour(Question::OffsetActiveImmediately).filter(|row| row.value != "unknown");
+        row.map(|row| row.value.clone())
+    };
+    let answers = (answer(context.source), answer(context.target));
+    if matches!(&answers, (Some(ours), Some(theirs)) if ours != theirs) {
+        let what = "a program that stands on the target may write the work offset in force, and the two machines differ in \
+                    whether that counts at once ('offset.active.immediately'): select the offset again behind the call";
+        context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+    }
+}
+
 /// The target has no locals, so nobody knows where a program that is not there looks for its arguments.
 fn unplaced(name: &ProgramName, index: usize, span: Span, context: &mut Context<'_>) {
     let name = name.short();
@@ -71,13 +135,19 @@ fn check(
     context: &mut Context<'_>,
 ) {
     match callee {
-        Callee::Program(name) if known.contains(name) => {}
+        Callee::Program(name) if known.contains(name) || standing::number_of(name, context).is_some() => {}
         Callee::Program(name @ ProgramName::Number(_)) => {
+            let short = name.short();
             let what = format!(
-                "{} is not in the library: put a program of that number that does the same on the target",
-                name.short()
+                "{short} is not in the library: put a program of that number that does the same on the target"
             );
-            context.add_once(index, &what, Diagnostic::new(Code::OutsideLibrary, span, what.clone()));
+            let finding = Diagnostic::new(Code::OutsideLibrary, span, what.clone());
+            let both = has_locals(context.source) && has_locals(context.target);
+            let help = format!(
+                "if such a program stands on the target, say so in its profile: programs = [\"{short}\"]; then no program \
+                 is asked for it again"
+            );
+            context.add_once(index, &what, if both { finding.with_help(help) } else { finding });
         }
         Callee::Program(ProgramName::Name(name)) => {
             let what = format!("'{name}' is not in the library, and the target has no program of that name");

@@ -13,6 +13,7 @@ pub(in crate::legalize) mod nesting;
 pub(in crate::legalize) mod outline;
 pub(in crate::legalize) mod repeat_loops;
 pub(in crate::legalize) mod repeats;
+pub(in crate::legalize) mod standing;
 pub(in crate::legalize) mod text_returns;
 
 use crate::canon::{Op, Role};

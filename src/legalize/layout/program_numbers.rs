@@ -8,6 +8,7 @@
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{Numbers, Ranges, Summaries};
 use crate::ir::{Block, Call, Callee, Module, StmtKind, TermKind};
+use crate::legalize::calls::standing;
 use crate::legalize::{Context, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
@@ -28,16 +29,34 @@ pub struct ProgramNumbers {
 
 /// Gives every program that has a name a number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
+    refuse_shadows(module, context);
     let looked_for = computed_calls(module);
     let numbers = choose(module, &looked_for, context);
     report_looked_for(module, &looked_for, &numbers.of, context);
     context.numbers = numbers;
 }
 
+/// Refuses programs of the library that the target's profile names as standing there: one would be written over the other.
+fn refuse_shadows(module: &Module, context: &mut Context<'_>) {
+    for (index, program) in module.programs.iter().enumerate() {
+        let Some(name @ ProgramName::Number(number)) = &program.name else { continue };
+        let Some(entry) = context.target.standing().entry_of(*number) else { continue };
+        let name = name.short();
+        let what = format!(
+            "the target's profile says under 'programs' that {name} stands on the machine ('{entry}'), and this program is \
+             {name}: it would be written over the other"
+        );
+        let help = "take it out of 'programs' in the profile, or leave this program out";
+        context.add(index, Diagnostic::new(Code::NoEquivalent, program.site.span, what).with_help(help));
+    }
+}
+
 fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> ProgramNumbers {
     let earlier = context.locked.programs;
     let mut chosen: BTreeMap<String, u32> = BTreeMap::new();
     let mut taken: BTreeSet<u32> = earlier.values().copied().collect();
+    // What stands in the machine would be written over.
+    let stands = |number: u32| context.target.standing().is_taken(number);
     let names: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     for name in &names {
         if let ProgramName::Number(n) = name {
@@ -61,14 +80,15 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
     for (index, program) in module.programs.iter().enumerate() {
         let Some(name) = &program.name else { continue };
         let key = name.to_string();
-        let number = match (chosen.get(&key).or_else(|| earlier.get(&key)), name) {
+        let number = match (chosen.get(&key).or_else(|| earlier.get(&key).filter(|n| !stands(**n))), name) {
             (_, ProgramName::Number(n)) if *n >= 1 && *n <= max => Some(*n),
             (Some(n), _) => Some(*n),
             _ => {
                 let origin = context.origins.get(index).copied().unwrap_or(index);
                 let before = before.remove(&origin);
                 let sub = program.returns() && !program.ends();
-                let is_free = |n: &u32| !(taken.contains(n) || bounded && looked_for.contains(*n));
+                let is_free =
+                    |n: &u32| !(taken.contains(n) || stands(*n) || bounded && looked_for.contains(*n));
                 let new = |n: &u32| is_free(n) && !kept.contains(n);
                 before.filter(is_free).or_else(|| free[usize::from(sub)].find(new))
             }
@@ -99,19 +119,29 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
             }
         }
     }
-    for (name, index, span) in missing(module, max) {
+    for (name, index, span) in missing(module, max, context) {
         let key = name.to_string();
-        let given = chosen.get(&key).or_else(|| earlier.get(&key)).copied();
-        let is_free =
-            |n: &u32| !(taken.contains(n) || kept.contains(n) || bounded && looked_for.contains(*n));
+        if let Some(number) = standing::number_of(&name, context) {
+            chosen.insert(key, number);
+            out.push((name, number));
+            continue;
+        }
+        let given = chosen.get(&key).or_else(|| earlier.get(&key)).filter(|n| !stands(**n)).copied();
+        let is_free = |n: &u32| {
+            !(taken.contains(n) || kept.contains(n) || stands(*n) || bounded && looked_for.contains(*n))
+        };
         let Some(number) = given.or_else(|| free[1].find(is_free)) else { continue };
         let what = format!(
             "{} is called as {}: the target's program numbers end at {max}",
             name.short(),
             ProgramName::Number(number)
         );
-        let help = "put a program of the new number that does the same on the target; macroglot.lock keeps the number \
-                    for later runs";
+        let help = format!(
+            "put a program of the new number that does the same on the target; macroglot.lock keeps the number for later \
+             runs. If it stands there already, say so in the target's profile: programs = [\"{} as {}\"]",
+            name.short(),
+            ProgramName::Number(number).short()
+        );
         context.add(index, Diagnostic::new(Code::OutsideLibrary, span, what).with_help(help));
         chosen.insert(key, number);
         out.push((name, number));
@@ -119,15 +149,16 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
     ProgramNumbers { of: out, chosen }
 }
 
-/// The programs outside the library whose numbers the target does not have, each with the first call of it.
-fn missing(module: &Module, max: u32) -> Vec<(ProgramName, usize, Span)> {
+/// The programs outside the library whose numbers the target does not have, or that have another one there, each with the first call of it.
+fn missing(module: &Module, max: u32, context: &Context<'_>) -> Vec<(ProgramName, usize, Span)> {
     let known: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     let mut found: BTreeMap<ProgramName, (usize, Span)> = BTreeMap::new();
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
             for call in calls_of(block) {
                 let Callee::Program(name @ ProgramName::Number(number)) = &call.callee else { continue };
-                if *number > max && !known.contains(name) {
+                let other = standing::number_of(name, context).is_some_and(|there| there != *number);
+                if (*number > max || other) && !known.contains(name) {
                     found.entry(name.clone()).or_insert((index, span_of(block, call)));
                 }
             }

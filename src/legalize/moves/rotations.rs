@@ -137,7 +137,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let called = context.called(module);
     let (given, none) = (called.given(module), BTreeSet::new());
     let callees: BTreeSet<usize> = called.pairs(module).into_iter().map(|(_, callee)| callee).collect();
-    let planes = other_planes(module);
+    let planes = other_planes(module, context);
     let known = OverCalls::of(module, &Rules { facts: &facts });
     let same = one_centre(module);
     let centre = same.map(|at| at.map(Expr::Number));

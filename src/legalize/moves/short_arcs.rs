@@ -26,6 +26,7 @@ use crate::ir::analysis::Modal;
 use crate::ir::{
     BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Var,
 };
+use crate::legalize::calls::standing;
 use crate::legalize::{Context, calls_of};
 use crate::text::Span;
 use plan::{Library, Plan};
@@ -71,7 +72,7 @@ enum Made {
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let (open, facts) = (context.modal_facts(module), context.facts_from_absolute(module));
     let summaries = context.summaries(module);
-    let planes = other_planes(module);
+    let planes = other_planes(module, context);
     let still = starts::still(module);
     let (given, none) = (context.called(module).given(module), BTreeSet::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
@@ -125,13 +126,15 @@ fn begins(
     None
 }
 
-/// The programs that name another plane than XY, or that call or are called by one that may be in another.
-pub(super) fn other_planes(module: &Module) -> Vec<bool> {
+/// The programs that name another plane than XY, or that call or are called by one that may be in another. One that stands
+/// in the machine may leave any.
+pub(super) fn other_planes(module: &Module, context: &Context<'_>) -> Vec<bool> {
     let names = |nc: &Nc| nc.ops().any(|op| op.group() == Group::Plane && op != Op::PlaneXy);
     let stmts = |program: &Program| {
         program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc()).any(names)
     };
     let mut others: Vec<bool> = module.programs.iter().map(stmts).collect();
+    standing::callers(module, context).keys().for_each(|caller| others[*caller] = true);
     let place = |callee: &Callee| {
         module
             .programs

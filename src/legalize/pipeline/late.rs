@@ -13,7 +13,7 @@ use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
 use crate::legalize::moves::start;
 use crate::legalize::offsets::still_blocks;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
-use crate::legalize::registers::{allocate, clear, frames, outside, temporaries};
+use crate::legalize::registers::{allocate, clear, frames, outside, standing, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
 
 pub(super) const EXPRESSIONS: &[Pass] = &[
@@ -108,6 +108,13 @@ pub(super) const REGISTERS: &[Pass] = &[
         "reports variables that nothing here sets, where their number changes",
         outside::run,
     )
+    .needs(&["registers"]),
+    Pass::reports(
+        "standing",
+        "reports variables and registers that programs which stand in the machine may know otherwise",
+        standing::run,
+    )
+    .when(|c, context| c.has(Feature::Call) && !context.target.standing().is_empty())
     .needs(&["registers"]),
     Pass::rewrites("clear", "clearing of a class becomes zeros and loops", clear::run)
         .when(clear::concerns)

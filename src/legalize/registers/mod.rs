@@ -16,5 +16,6 @@ pub(in crate::legalize) mod outside;
 mod pool;
 mod runs;
 mod shortage;
+pub(in crate::legalize) mod standing;
 mod statics;
 pub(in crate::legalize) mod temporaries;

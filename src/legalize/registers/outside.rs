@@ -10,6 +10,7 @@ use crate::ir::analysis::{VarSet, Vars};
 use crate::ir::{Class, Expr, Module, Place, Program, StmtKind, Var};
 use crate::legalize::Context;
 use crate::legalize::by_program::look_at_each;
+use crate::legalize::registers::map::Register;
 use crate::legalize::registers::names::{in_a_sentence, name_of};
 
 /// Reports variables that nothing here sets and that have another number on the target: of all of them in one sentence.
@@ -24,12 +25,10 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     };
     let mut all = VarSet::default();
     reads.iter().for_each(|read| _ = all.join(read, |_| true));
-    let mut moves: Vec<(Var, Named, Named)> = Vec::new();
-    for var in all.iter() {
-        if let Some((name, register)) = moved(&var) {
-            moves.push((var, apart(&name), (register.name.clone(), Some(register.number))));
-        }
-    }
+    let moves: Vec<Moved> = all
+        .iter()
+        .filter_map(|var| moved(&var).map(|(name, register)| named(var, &name, register)))
+        .collect();
     if moves.is_empty() {
         return;
     }
@@ -45,6 +44,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
+/// A variable, its name on the source, and its register.
+pub(super) type Moved = (Var, Named, Named);
+
+/// A variable of this name on the source that has this register.
+pub(super) fn named(var: Var, name: &str, register: &Register) -> Moved {
+    (var, apart(name), (register.name.clone(), Some(register.number)))
+}
+
 /// A name, and the number at its end if it has one.
 type Named = (String, Option<u32>);
 
@@ -56,38 +63,44 @@ fn apart(name: &str) -> Named {
     }
 }
 
-/// The sentence about variables, with those in a row that stay in a row as one.
-fn told(moves: &[(Var, Named, Named)]) -> String {
+fn as_written((name, number): &Named) -> String {
+    format!("{name}{}", number.map(|n| n.to_string()).unwrap_or_default())
+}
+
+/// What they are on the target, those in a row that stay in a row as one.
+pub(super) fn in_words(moves: &[Moved]) -> String {
     let next = |a: &Named, b: &Named| a.0 == b.0 && a.1.is_some() && a.1.map(|n| n + 1) == b.1;
-    let written =
-        |(name, number): &Named| format!("{name}{}", number.map(|n| n.to_string()).unwrap_or_default());
     let rows = moves.chunk_by(|a, b| next(&a.1, &b.1) && next(&a.2, &b.2));
     let said = rows.filter_map(|row| {
         let (first, last) = (row.first()?, row.last()?);
         Some(match row.len() {
-            1 => format!("{} is {} on the target", written(&first.1), written(&first.2)),
+            1 => format!("{} is {} on the target", as_written(&first.1), as_written(&first.2)),
             _ => format!(
                 "{} to {} are {} to {} on the target",
-                written(&first.1),
-                written(&last.1),
-                written(&first.2),
-                written(&last.2)
+                as_written(&first.1),
+                as_written(&last.1),
+                as_written(&first.2),
+                as_written(&last.2)
             ),
         })
     });
-    let said = in_a_sentence(&said.collect::<Vec<_>>());
+    in_a_sentence(&said.collect::<Vec<_>>())
+}
+
+/// The sentence about variables.
+fn told(moves: &[Moved]) -> String {
     match moves {
         [one] => format!(
             "{} is read and nothing here sets it: it is {} on the target; set that one",
-            written(&one.1),
-            written(&one.2)
+            as_written(&one.1),
+            as_written(&one.2)
         ),
-        _ => format!("variables are read that nothing here sets: {said}; set those"),
+        _ => format!("variables are read that nothing here sets: {}; set those", in_words(moves)),
     }
 }
 
 /// What a program reads by name.
-fn read(program: &Program) -> VarSet {
+pub(super) fn read(program: &Program) -> VarSet {
     let mut read = VarSet::default();
     let mut add = |e: &Expr| e.variables(&mut |var| _ = read.insert(var));
     for block in &program.blocks {
@@ -99,24 +112,27 @@ fn read(program: &Program) -> VarSet {
 
 /// What the library sets by name, or clears.
 fn written(module: &Module) -> Vars {
-    let by_program = look_at_each(module, |_, program| {
-        let mut written = Vars::default();
-        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-            match (&stmt.kind, stmt.kind.target()) {
-                (StmtKind::ClearAll(class), _) => written.classes.insert(*class),
-                (_, Some(Place::Var(var))) => _ = written.vars.insert(*var),
-                _ => {}
-            }
-        }
-        written
-    });
+    let by_program = look_at_each(module, |_, program| written_by(program));
     by_program.iter().fold(Vars::default(), |mut all, written| {
         all.join(written);
         all
     })
 }
 
+/// What a program sets by name, or clears.
+pub(super) fn written_by(program: &Program) -> Vars {
+    let mut written = Vars::default();
+    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+        match (&stmt.kind, stmt.kind.target()) {
+            (StmtKind::ClearAll(class), _) => written.classes.insert(*class),
+            (_, Some(Place::Var(var))) => _ = written.vars.insert(*var),
+            _ => {}
+        }
+    }
+    written
+}
+
 /// True for what is not a program's own.
-fn is_shared(class: Class) -> bool {
+pub(super) fn is_shared(class: Class) -> bool {
     matches!(class, Class::Common | Class::Retained | Class::Global | Class::Parametric)
 }

@@ -7,9 +7,11 @@
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::Universe;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
-use crate::ir::{Class, Module, Var};
+use crate::ir::{Callee, Class, Module, TermKind, Var};
 use crate::legalize::Context;
+use crate::legalize::calls::standing;
 use crate::legalize::registers::map::{Register, Registers};
+use crate::syntax::ProgramName;
 use foldhash::{HashMap, HashMapExt};
 use std::sync::Arc;
 
@@ -45,15 +47,19 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
         return;
     }
     lives.sort_by(|(.., a), (.., b)| a.cmp(b));
-    let upward_exposed =
-        UpwardExposed::among(module, Universe::new(lives.iter().map(|(var, ..)| *var).collect()));
+    let universe = Universe::new(lives.iter().map(|(var, ..)| *var).collect());
+    let upward_exposed = UpwardExposed::among(module, universe.clone());
+    let before = cut(module, context).map(|cut| UpwardExposed::among(&cut, universe));
     let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
     for index in roots(module) {
         let span = module.programs[index].site.span;
         let is_at_entry = upward_exposed.at_entry_of(index);
-        for kept in [true, false] {
+        let is_before = before.as_ref().map(|before| before.at_entry_of(index));
+        for (kept, behind) in [(true, false), (false, false), (true, true), (false, true)] {
             let shown = lives.iter().enumerate();
-            let shown = shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var));
+            let is_behind = |var: Var| is_before.as_ref().is_some_and(|is_before| !is_before(var));
+            let shown =
+                shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_behind(*var) == behind);
             let shown: Vec<usize> = shown.map(|(at, _)| at).collect();
             if shown.is_empty() {
                 continue;
@@ -62,9 +68,26 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
             let what = said.entry(shown).or_insert_with_key(|shown| {
                 told(&shown.iter().map(|at| &lives[*at].2).collect::<Vec<_>>(), kept).into()
             });
-            context.add(index, Diagnostic::new(Code::OtherRetention, span, what.clone()));
+            let finding = Diagnostic::new(Code::OtherRetention, span, what.clone());
+            // Behind a program that stands in the machine it mostly is what that one left.
+            context.add(index, if behind { finding.asked_once() } else { finding });
         }
     }
+}
+
+/// The library as it is before programs that stand in the machine are called; none where none is.
+fn cut(module: &Module, context: &Context<'_>) -> Option<Module> {
+    let callers = standing::callers(module, context);
+    let mut cut = (!callers.is_empty()).then(|| module.clone())?;
+    for (index, called) in callers {
+        for block in cut.programs.get_mut(index).into_iter().flat_map(|program| &mut program.blocks) {
+            let stands = |callee: &Callee| matches!(callee, Callee::Program(ProgramName::Number(n)) if called.contains(n));
+            if matches!(&block.term.kind, TermKind::Call { call, .. } if stands(&call.callee)) {
+                block.term.kind = TermKind::Stray;
+            }
+        }
+    }
+    Some(cut)
 }
 
 /// The sentence about registers, in order of their numbers; true for those that the source keeps.

@@ -347,7 +347,7 @@ fn kind(what: &EventKind) -> &'static str {
         Asked { .. } => "answer",
         Other { .. } | Act { .. } => "code",
         End { .. } => "end",
-        Enter { .. } => "call",
+        Enter { .. } | Outside(_) => "call",
         Leave => "return",
         Unsure { .. } => "doubt",
     }

@@ -5,6 +5,7 @@ use super::paths::{apart, arcs_apart};
 use super::texts::say_the_same;
 use crate::control::Stop;
 use crate::control::trace::{EventKind, Leg, Position};
+use std::collections::BTreeMap;
 
 /// Seconds by which waits may lie apart: words count milliseconds, and round to the nearest.
 pub(super) const LEAST_WAIT: f64 = 0.000_501;
@@ -145,6 +146,24 @@ pub fn differ(
         }
         (Asked { answer }, Asked { answer: other }) => {
             differs(*answer, *other).then_some("the answer differs")
+        }
+        (Outside(call), Outside(other)) => {
+            let apart = |ours: &BTreeMap<u32, f64>, theirs: &BTreeMap<u32, f64>| {
+                let near = |(number, value): (&u32, &f64)| {
+                    theirs
+                        .get(number)
+                        .is_some_and(|other| !written(*value, *other) || !differs(*value, *other))
+                };
+                ours.len() != theirs.len() || !ours.iter().all(near)
+            };
+            if call.program != other.program || call.runs != other.runs {
+                Some("another program that stands in the machine is called, or another number of times")
+            } else if apart(&call.locals, &other.locals) {
+                Some("a program that stands in the machine gets other arguments")
+            } else {
+                apart(&call.common, &other.common)
+                    .then_some("a program that stands in the machine finds other common variables")
+            }
         }
         (Alarm(stop), Alarm(other)) => alarm_differs(stop, other, room),
         (End { .. }, End { .. }) => (returns(source) != returns(target))

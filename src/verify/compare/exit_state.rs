@@ -11,6 +11,7 @@ use super::tolerance::Tolerance;
 use crate::canon::{Group, Op};
 use crate::control::machine::ExitState;
 use crate::control::scenario::{AXES, Axes, Tool};
+use crate::control::trace::EventKind;
 use crate::control::{Run, Table};
 use crate::dialect::Question;
 use crate::verify::sides::Side;
@@ -41,6 +42,35 @@ pub fn left_differs(
         substituted.insert(text);
     }
     None
+}
+
+/// What a program that is called, and that nobody knows, finds otherwise in the machine; none of two other events.
+pub fn outside_differs(
+    (source, ours): (&Side<'_>, &EventKind),
+    (target, theirs): (&Side<'_>, &EventKind),
+    tolerance: Tolerance,
+) -> Option<String> {
+    let (EventKind::Outside(ours), EventKind::Outside(theirs)) = (ours, theirs) else { return None };
+    let found = found_differs((source, &ours.state), (target, &theirs.state), tolerance);
+    found
+        .filter(|_| ours.program == theirs.program)
+        .map(|what| format!("where {} is called, {what}", ours.name()))
+}
+
+fn found_differs(
+    (source, ours): (&Side<'_>, &ExitState),
+    (target, theirs): (&Side<'_>, &ExitState),
+    tolerance: Tolerance,
+) -> Option<String> {
+    if let Some(what) = seen_differs(ours, theirs, tolerance) {
+        return Some(what.trim_end_matches(" at the end").to_owned());
+    }
+    if ours.work != theirs.work {
+        return Some(format!("work offset {} is in force, on the target {}", ours.work, theirs.work));
+    }
+    let mut scratch = BTreeSet::new();
+    state_differs((source, ours), (target, theirs), tolerance, &mut scratch)
+        .map(|what| format!("the machine is {what}"))
 }
 
 /// What a person could tell of the machine after the end.

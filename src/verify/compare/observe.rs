@@ -240,9 +240,9 @@ fn is_end(what: &EventKind) -> bool {
     )
 }
 
-/// True for what finds the tool that was made ready: a change, and what goes on after an end.
+/// True for what finds the tool that was made ready: a change, what goes on after an end, and what nobody knows.
 fn finds_tool(what: &EventKind) -> bool {
-    matches!(what, EventKind::ToolChange { .. } | EventKind::End { .. })
+    matches!(what, EventKind::ToolChange { .. } | EventKind::End { .. } | EventKind::Outside(_))
 }
 
 fn is_observable(what: &EventKind) -> bool {

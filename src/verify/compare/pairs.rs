@@ -3,7 +3,7 @@
 use super::arcs::joined;
 use super::builders;
 use super::differ::{ANOTHER_FEED, differ};
-use super::exit_state::left_differs;
+use super::exit_state::{left_differs, outside_differs};
 use super::found::{Comparison, Difference};
 use super::kinds::is_cut;
 use super::lengths::{brought, is_told_of_same_tool, shown_by_moves, skips_same_tool};
@@ -386,7 +386,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
                 self.found.largest = largest;
                 self.found.substituted.extend(letters::doubt(a, b, self.target.control));
                 self.found.texts.extend(texts(&source.what, &target.what));
-                None
+                outside_differs((self.source, a), (self.target, b), self.tolerance)
             }
             Some(what) => match has_no_feed(a).filter(|_| what == ANOTHER_FEED) {
                 Some(text) => {

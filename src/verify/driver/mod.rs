@@ -7,6 +7,7 @@ mod elsewhere;
 mod entries;
 mod fewer_digits;
 mod kept;
+mod left_modes;
 mod listed;
 mod otherwise;
 mod pictured;

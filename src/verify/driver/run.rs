@@ -31,6 +31,7 @@ impl Verifier<'_, '_> {
             Some(_) if self.as_called() => {}
             Some(there) => {
                 self.search(there);
+                self.in_modes_left(there);
                 self.in_other_unit(there);
                 self.otherwise(there);
                 self.entries(there);

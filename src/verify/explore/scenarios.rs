@@ -186,6 +186,8 @@ impl Proposals {
         if count > 0 {
             scenario.state = self.cells(count);
         }
+        // Programs that stand in the machine leave all as it was, or what they find anywhere.
+        scenario.outside = if count % 2 == 1 { count as u64 } else { 0 };
         scenario.optional_stop = count.is_multiple_of(2);
         scenario.steps = self.effort.steps;
         scenario.events = usize::try_from(self.effort.steps).unwrap_or(usize::MAX);

@@ -39,7 +39,9 @@ const ONLY_MOVE: &str = "XYZUVWIJRDHF";
 /// True where every run takes the way that a run came to its end by. `is_free` says of a variable whether scenarios start it
 /// with one value or another.
 pub fn is_settled(side: &Side<'_>, run: &Run, is_free: &dyn Fn(&str) -> bool) -> bool {
-    if run.events.iter().any(|event| matches!(event.what, EventKind::Asked { .. })) {
+    // What a program that nobody knows leaves sends the run anywhere.
+    let open = |what: &EventKind| matches!(what, EventKind::Asked { .. } | EventKind::Outside(_));
+    if run.events.iter().any(|event| open(&event.what)) {
         return false;
     }
     let mut rests = Rests { control: side.control, on: BTreeMap::new(), ways: BTreeSet::new() };

@@ -8,6 +8,7 @@ use super::numbers::Numbers;
 use super::program_texts::ProgramTexts;
 use super::stands::stands;
 use crate::canon::Op;
+use crate::control::outside::Outside;
 use crate::control::{Execute, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::dialect::Control;
 use crate::syntax::{Block, ProgramName};
@@ -56,6 +57,11 @@ impl<'a> Side<'a> {
     pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
         let reported = files.iter().map(|_| Reported::default()).collect();
         Self::over(control, execute, Library::new(files).bound_to(control), Arc::new(reported))
+    }
+
+    /// The same beside programs that stand in the machine.
+    pub(super) fn with(self, outside: Outside) -> Self {
+        Self { library: self.library.beside(outside), ..self }
     }
 
     fn over(

@@ -1,0 +1,73 @@
+//! Variables of programs that stand in the machine, where the conversion gives variables another number.
+//!
+//! Law: a program that stands in the target's machine knows common variables by the numbers that the source knows them
+//! by. Side condition: each that it may share with the library keeps its number, and nothing that the conversion keeps in
+//! between lies in one of its own. Counter-example: `#714` that becomes `#109`, and `O9810`, which reads `#714`.
+
+use super::names::name_of;
+use super::outside::{Moved, in_words, is_shared, named, read, written_by};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Module, Var};
+use crate::legalize::Context;
+use crate::legalize::calls::standing;
+use crate::syntax::ProgramName;
+use std::collections::BTreeMap;
+
+/// Reports variables and registers that such a program may know by another meaning.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let callers = standing::callers(module, context);
+    let Some((first, called)) = callers.first_key_value().map(|(at, called)| (*at, called.clone())) else {
+        return;
+    };
+    let tied = standing::tied_to(callers.keys().copied(), &context.called(module).pairs(module));
+    moved(module, &|at| tied.contains(&at), context);
+    let taken = context.registers.taken_in_words();
+    if !taken.is_empty() && !context.target.states_reserved() {
+        let example = called.first().map(|number| ProgramName::Number(*number).short().into_owned());
+        let example = example.unwrap_or_default();
+        let what = format!(
+            "programs that stand on the target are called, {example} is one, and the conversion takes registers that \
+             these may use: {taken}"
+        );
+        let help = "name the variables that they use in 'reserved' of the target's profile; reserved = [] says that they \
+                    use none beside those of the library";
+        let finding =
+            Diagnostic::new(Code::Conditional, module.programs[first].site.span, what).with_help(help);
+        context.add(first, finding.asked_once());
+    }
+}
+
+/// Variables that have another number: of programs that run with such a one each is for review, of the others it is
+/// asked once.
+fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Context<'_>) {
+    let mut names: BTreeMap<Var, Option<Moved>> = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        let mut vars: Vec<Var> = read(program).iter().collect();
+        vars.extend(written_by(program).vars.iter());
+        vars.sort_unstable();
+        vars.dedup();
+        let mut moves = Vec::new();
+        for var in vars.into_iter().filter(|var| is_shared(var.class)) {
+            let there = names.entry(var).or_insert_with(|| {
+                let register = context.registers.of.get(&var)?;
+                let is_own = context.registers.is_own(&var, register);
+                let name = name_of(var, module, context.source).filter(|_| !is_own)?;
+                Some(named(var, &name, register))
+            });
+            moves.extend(there.clone());
+        }
+        if moves.is_empty() {
+            continue;
+        }
+        let what = format!(
+            "programs that stand on the target know variables by their numbers on the source, and here {}: they find \
+             other values, or set others",
+            in_words(&moves)
+        );
+        let help = "look whether one of them reads or sets these; the target's profile says which variables the machine \
+                    has ('variables') and which programs must not be given ('reserved')";
+        let finding =
+            Diagnostic::new(Code::Conditional, module.programs[index].site.span, what).with_help(help);
+        context.add(index, if runs_with(index) { finding } else { finding.asked_once() });
+    }
+}
