@@ -5,7 +5,7 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    bare_starts, contour_types, contours, corners, counts, cycle_words, faces, hole_codes,
+    bare_starts, contour_ends, contour_types, contours, corners, counts, cycle_words, faces, hole_codes,
     hole_returns, holes, inch_leads, interpolations, lone_passes, modes, roughing, run_outs, steps,
     tap_feeds, thread_ways, threads, written_corners, x_counts, zeros,
 };
@@ -57,6 +57,13 @@ pub(super) const LATHE: &[Pass] = &[
         bare_starts::run,
     )
     .when(bare_starts::concerns),
+    Pass::edits(
+        "contour-ends",
+        "contours end before a last block that the target's cycles do not take; their finishing is moves",
+        contour_ends::run,
+    )
+    .when(contour_ends::concerns)
+    .needs(&["start", "beside-moves", "bare-starts"]),
     PASS_ENDS,
     Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)
         .when(|c, _| corners::concerns(c))
