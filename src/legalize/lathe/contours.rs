@@ -115,7 +115,7 @@ fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String, &'s
         program.blocks.iter().enumerate().flat_map(|(block, found)| {
             found.stmts.iter().enumerate().map(move |(at, stmt)| ((block, at), stmt))
         });
-    let mut at = from.z();
+    let mut at = from.z()?;
     let mut along = 0.0;
     for (place, stmt) in stmts.filter(|(place, _)| (begin..=end).contains(place)) {
         let Some(nc) = stmt.kind.nc() else { continue };
@@ -124,9 +124,8 @@ fn returns(program: &Program, nc: &Nc, from: Place) -> Option<(Span, String, &'s
             return None;
         }
         let Some(z) = nc.word(Role::Z) else { continue };
-        let z = z.constant()?;
-        let way = at.map_or(0.0, |at| z - at);
-        at = Some(z);
+        let way = z.constant()? - at;
+        at += way;
         if place == end && way * along < 0.0 {
             let what = format!(
                 "N{last}, the last block of this contour, goes back along Z, and the control stops there: Z of a contour may not turn back"
