@@ -178,6 +178,34 @@ impl Op {
         )
     }
 
+    /// True for a G code that is for its own block alone, but for the wait.
+    pub const fn is_for_its_block(self) -> bool {
+        use Op::*;
+        self.is_lathe_cycle()
+            || self.is_lathe_setup()
+            || matches!(
+                self,
+                SetPosition
+                    | LocalShift
+                    | LimitSpeed
+                    | WriteWork
+                    | WriteOffset
+                    | WriteTurret
+                    | ReadOffset
+                    | WriteVariable
+                    | ReferenceCheck
+                    | ReferenceReturn
+                    | ReferenceFrom
+                    | Reference2
+                    | Home
+                    | MachineOnce
+                    | RapidOnce
+                    | ExactStopOnce
+                    | Probe
+                    | ProbeOther
+            )
+    }
+
     /// True for what acts once, with words that mean something else without it.
     pub const fn acts_with_words(self) -> bool {
         self.takes_axes() || matches!(self, Op::Dwell)

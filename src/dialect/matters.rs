@@ -24,6 +24,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.allowance.into.part", "an allowance that points into the part is taken with its sign"),
     ("machine:lathe.code.moves.nothing", "a code of a lathe that only this control has moves nothing"),
     ("machine:lathe.contour.moves", "the cycles of contours move as docs/lathe.md says"),
+    (
+        "machine:lathe.contour.returns",
+        "a last block of a contour that goes back along the cut outside the stock is no part of the shape that is roughed",
+    ),
     ("machine:lathe.contour.steps", "increments of a contour count from where the finishing began"),
     (
         "machine:lathe.corner.read",

@@ -253,6 +253,9 @@ questions! {
                                                                  moment", if "op:threading";
     PassAlone "pass.alone" OneOf(&["nothing", "repeats", "unknown"]), "what a block with M, S or T and without an axis does while a turning, threading or facing pass is in \
                                                                      force: the pass once more, or nothing but its own words", if "op:pass.turning";
+    PassData "pass.data" OneOf(&["kept", "cleared", "unknown"]), "what a G code for its own block, other than a wait, does to the words of the turning, threading or facing \
+                                                                  pass in force: they stay, or are taken away", if "op:pass.turning";
+    FinishDepth "finish.depth" OneOf(&["ignored", "unknown"]), "what the depth of a roughing pass does beside the finishing of a contour: nothing", if "op:contour.finish";
     ThreadAngles "thread.angles" OneOf(&["0.29.30.55.60.80", "any", "unknown"]), "the angles between the flanks of a thread that the cycle of many passes takes, in \
                                                                                 whole degrees", if "op:threading";
     ThreadFlanks "thread.flanks" OneOf(&["leading.first", "trailing.first", "unknown"]), "in which order the passes of a thread that is cut on both flanks take them: first the one \

@@ -48,6 +48,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             machine.cycle = None;
         }
     }
+    lathe::pass::cross(machine, command);
     if lathe::way::follows(machine, command, trace)? {
         return Ok(true);
     }

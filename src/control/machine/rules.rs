@@ -111,6 +111,10 @@ pub struct Rules {
     pub speed_kept: Fact<bool>,
     /// A block without an axis makes the turning, threading or facing pass in force once more.
     pub pass_alone: Fact<bool>,
+    /// The depth of a roughing pass does nothing beside the finishing of a contour.
+    pub finish_depth: Fact<()>,
+    /// A G code for its own block, other than a wait, takes away what the pass in force was told.
+    pub pass_cleared: Fact<bool>,
     pub cycle_block_runs: Fact<bool>,
     pub cycle_runs_without_axes: Fact<bool>,
     pub cycle_runs_by_depth: Fact<bool>,
@@ -257,6 +261,8 @@ impl Rules {
                 true,
             ),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
+            finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
+            pass_cleared: fact(control, Question::PassData, word("cleared", "kept"), false),
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
                 .or_silent(control, Question::CycleBlockRuns),
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),

@@ -48,6 +48,11 @@ Nothing needs to be done for the shape of the part. Where surface or speed matte
 "The program gives names to variables (SETVN), which the source's control shows beside their values. The target shows no such names, and nothing else reads them. They are left out, and told once a program.
 
 Nothing needs to be done. Tell the operator which register on the target holds what, if somebody looks at the values there: the report lists the registers."
+
+    "0411" WrittenOut Note "the source does more than its words say"
+"The control of the source makes a move here that no word of the block names, such as the turning pass in force once more for coolant alone. The target does not, so the move is written out.
+
+Nothing needs to be done if the program cuts as it should on the source. If the move was never meant, take it out there: end the pass with G0 before the block."
         }
     };
 }

@@ -173,7 +173,7 @@ fn beyond(
 }
 
 /// True for a control that lets no point of a contour lie beyond the start of the cycle: it has the blocks before its cycles alone.
-fn stops_beyond(control: &Control) -> bool {
+pub(super) fn stops_beyond(control: &Control) -> bool {
     control.dialect().settings.iter().any(|row| row.otherwise == Some(Role::ThreadLeast))
 }
 

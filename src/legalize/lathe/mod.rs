@@ -1,6 +1,7 @@
 //! Lathes: cycles in one block or two, contours, holes, increments, machine coordinates, units, and programs of the other kind of machine.
 
 pub mod bare_starts;
+pub mod contour_ends;
 mod contour_starts;
 pub mod contour_types;
 pub mod contours;

@@ -5,9 +5,9 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    bare_starts, contour_types, contours, corners, counts, cycle_words, faces, hole_codes, hole_returns,
-    holes, inch_leads, interpolations, lone_passes, modes, roughing, run_outs, steps, tap_feeds, thread_ways,
-    threads, written_corners, x_counts, zeros,
+    bare_starts, contour_ends, contour_types, contours, corners, counts, cycle_words, faces, hole_codes,
+    hole_returns, holes, inch_leads, interpolations, lone_passes, modes, roughing, run_outs, steps,
+    tap_feeds, thread_ways, threads, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -30,6 +30,14 @@ pub(super) const LONE_PASSES: Pass = Pass::edits(
 )
 .when(lone_passes::concerns);
 
+const PASS_ENDS: Pass = Pass::edits(
+    "pass-ends",
+    "the pass in force ends before M, S and T alone, where the target would make it once more",
+    lone_passes::run,
+)
+.when(lone_passes::ends)
+.needs(&["start", "beside-moves", "pauses"]);
+
 pub(super) const INTERPOLATIONS: Pass = Pass::reports(
     "interpolations",
     "reports what milling with the C axis on a face rests on",
@@ -49,6 +57,14 @@ pub(super) const LATHE: &[Pass] = &[
         bare_starts::run,
     )
     .when(bare_starts::concerns),
+    Pass::edits(
+        "contour-ends",
+        "contours end before a last block that the target's cycles do not take; their finishing is moves",
+        contour_ends::run,
+    )
+    .when(contour_ends::concerns)
+    .needs(&["start", "beside-moves", "bare-starts"]),
+    PASS_ENDS,
     Pass::edits("corners", "corners lose the sign that says which way the next block goes", corners::run)
         .when(|c, _| corners::concerns(c))
         .needs(&["start", "beside-moves"]),

@@ -34,8 +34,11 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
     if machine.rules.turning.inch_set.is_some_and(other) {
         return Err(Stop::unnamed("a unit that the control is not set to"));
     }
-    if command.has(Op::Finish) && command.has_axes() {
+    if command.has(Op::Finish) && command.words.iter().any(|(role, value)| beside_finish(*role, *value)) {
         return Err(Stop::unnamed("an axis word beside the finishing of a contour"));
+    }
+    if command.has(Op::Finish) && command.word(Role::CutDepth).is_some() {
+        machine.rules.finish_depth.ask(trace);
     }
     if command.word(Role::ThreadsPerInch).is_some_and(|count| count <= 0.0) {
         return Err(Stop::unnamed("threads an inch that are none"));
@@ -43,6 +46,11 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
     letters(machine, command)?;
     tool_word(command)?;
     arcs(machine, command, trace)
+}
+
+/// True for an axis word beside the finishing of a contour that is no allowance of 0 (F1).
+fn beside_finish(role: Role, value: f64) -> bool {
+    role.is_axis() && !(matches!(role, Role::StepX | Role::StepZ) && value == 0.0)
 }
 
 fn is_refused(op: Op) -> bool {

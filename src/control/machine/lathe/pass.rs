@@ -14,18 +14,33 @@ pub struct Pass {
     x: Option<f64>,
     z: Option<f64>,
     taper: f64,
+    /// True where a code for its own block came after the words.
+    crossed: bool,
+}
+
+/// Takes a code of motion, which begins afresh (B7), and one for its own block, which may take away what the pass in force was told (B9).
+pub fn cross(machine: &mut Machine, command: &Command) {
+    if command.of(Group::Motion).is_some() {
+        machine.lathe.pass = Pass::default();
+    }
+    let once = command.ops.iter().any(|op| op.is_for_its_block());
+    machine.lathe.pass.crossed |= once && machine.motion.is_pass();
 }
 
 /// Makes a pass, if the block asks for one.
 pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
-    if command.of(Group::Motion).is_some() {
-        machine.lathe.pass = Pass::default();
-    }
     let own = [Role::X, Role::StepX, Role::Z, Role::StepZ, Role::Taper, Role::TaperZ];
     if command.axes().any(|(axis, _)| axis != 0 && axis != 2) {
         return Err(alarm("PS0330", "a pass of an axis other than X and Z"));
     }
     let is_told = own.iter().any(|role| command.word(*role).is_some());
+    let goes_on = machine.lathe.pass.is_told() && (is_told || switches(command));
+    if machine.lathe.pass.crossed && goes_on {
+        if machine.rules.pass_cleared.ask(trace) {
+            machine.lathe.pass = Pass::default();
+        }
+        machine.lathe.pass.crossed = false;
+    }
     if !(is_told || machine.lathe.pass.is_whole() && runs_again(machine, command, trace)) {
         return Ok(());
     }
@@ -33,7 +48,7 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
     let start = machine.position;
     let a = machine.tool_at();
     machine.lathe.pass.read(command, a, (machine.unit(), machine.incremental));
-    let Pass { x: Some(x), z: Some(z), taper } = machine.lathe.pass else {
+    let Pass { x: Some(x), z: Some(z), taper, .. } = machine.lathe.pass else {
         return Err(Stop::unnamed("the first block of a pass without X or without Z"));
     };
     trace.doubt("machine:lathe.pass.moves");
@@ -52,12 +67,23 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
 
 /// True where the control makes the pass once more for M, S or T alone (B9).
 fn runs_again(machine: &Machine, command: &Command, trace: &mut Trace) -> bool {
-    let switches = command.ops.iter().any(|op| *op != Op::Dwell)
-        || [Role::Speed, Role::Tool].iter().any(|role| command.word(*role).is_some());
-    switches && machine.rules.pass_alone.ask(trace)
+    switches(command) && machine.rules.pass_alone.ask(trace)
+}
+
+/// True for M, S or T, or another code than a wait or one for its own block.
+fn switches(command: &Command) -> bool {
+    let once = command.ops.iter().any(|op| op.is_for_its_block());
+    let told = command.ops.iter().any(|op| *op != Op::Dwell)
+        || [Role::Speed, Role::Tool, Role::Turret].iter().any(|role| command.word(*role).is_some());
+    told && !once
 }
 
 impl Pass {
+    /// True once it has been told anything.
+    fn is_told(&self) -> bool {
+        self.x.is_some() || self.z.is_some() || self.taper != 0.0
+    }
+
     /// True once it has been told where it ends.
     fn is_whole(&self) -> bool {
         self.x.is_some() && self.z.is_some()

@@ -28,6 +28,8 @@ pub fn run(
     let cut = cut(machine, command, axis)?;
     let valleys = has_valleys(machine, command, profile, axis)?;
     let a = machine.tool_at();
+    let (whole, held) = (profile, without_end(machine, profile, (a, axis), trace));
+    let profile = held.as_ref().unwrap_or(whole);
     let (begin, end) = (profile.begin(), profile.end());
     let infeed = infeed(profile, a, axis);
     let along = sense_of(begin, end, 1 - axis);
@@ -57,7 +59,41 @@ pub fn run(
         };
         if valleys { levels.valleys(machine, trace)? } else { levels.steps(machine, trace)? }
     }
-    along_contour(machine, profile, &left, valleys, trace)
+    along_contour(machine, whole, &left, valleys, trace)
+}
+
+/// What is roughed of a contour whose last block is no stock: one that lies no deeper than the start, and goes back along the cut or beyond the
+/// start. Only a control takes it where roughing has no first block (R10, R11).
+fn without_end(
+    machine: &Machine,
+    profile: &Profile,
+    (a, axis): (Point, usize),
+    trace: &mut Trace,
+) -> Option<Profile> {
+    let infeed = sense_of(a, profile.begin(), axis);
+    if machine.rules.turning.two_blocks || axis != 0 || infeed == 0.0 {
+        return None;
+    }
+    let last = profile.blocks.iter().rposition(|pieces| !pieces.is_empty())?;
+    let start = profile.blocks[last].start;
+    let [piece] = profile.pieces.get(start..)? else { return None };
+    let outside = |at: Point| (at[axis] - a[axis]) * infeed <= DEEPER;
+    let along = sense_of(profile.begin(), piece.from, 1 - axis);
+    let back = (piece.to[1 - axis] - piece.from[1 - axis]) * along < -DEEPER;
+    let beyond = (piece.to[axis] - a[axis]) * infeed < -DEEPER;
+    if start < 2 || piece.arc.is_some() || !outside(piece.from) || !outside(piece.to) || !(back || beyond) {
+        return None;
+    }
+    if back {
+        trace.doubt("machine:lathe.contour.returns");
+    }
+    Some(Profile {
+        pieces: profile.pieces[..start].to_vec(),
+        blocks: profile.blocks[..last].to_vec(),
+        rapid: profile.rapid,
+        names: profile.names,
+        by_steps: profile.by_steps,
+    })
 }
 
 /// Says what is roughed, ahead of the passes.

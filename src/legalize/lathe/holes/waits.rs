@@ -2,7 +2,9 @@
 
 use crate::canon::Role;
 use crate::dialect::Control;
-use crate::ir::{Expr, Module, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::calls_of;
+use crate::ir::analysis::over_calls::called;
+use crate::ir::{Callee, Expr, Module, NcItem, Program, Stmt, StmtKind, TermKind};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -15,8 +17,8 @@ pub(super) struct Waits {
     none_yet: bool,
     /// What P is beside the codes of the source.
     roles: Rc<BTreeSet<Role>>,
-    /// True where no program of the library calls another.
-    alone: bool,
+    /// By program, whether another one may call it.
+    called: Rc<Vec<bool>>,
     /// True where the cycle of a contour with its P came after the wait that is known.
     doubted: bool,
 }
@@ -29,17 +31,19 @@ impl Waits {
             row.words.get("P").copied().filter(|role| *role != Role::ContourFirst)
         };
         let roles = Rc::new(source.dialect().codes.iter().filter_map(of_row).collect());
-        let mut blocks = module.programs.iter().flat_map(|program| &program.blocks);
-        let alone = !blocks.any(|block| matches!(block.term.kind, TermKind::Call { .. }));
-        Self { roles, alone, ..Self::default() }
+        let calls = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
+        let any = calls().any(|call| matches!(call.callee, Callee::Computed(_) | Callee::Cycle(_)));
+        let called = if any { vec![true; module.programs.len()] } else { called(module) };
+        Self { roles, called: Rc::new(called), ..Self::default() }
     }
 
     /// Before the first block of a program: one that returns was called, maybe with a P, and one that jumps back may have had one.
-    pub fn begin(&self, program: &Program) -> Self {
+    pub fn begin(&self, (index, program): (usize, &Program)) -> Self {
         let kinds = || program.blocks.iter().map(|block| &block.term.kind);
         let returns = kinds().any(|kind| matches!(kind, TermKind::Return { .. }));
         let again = kinds().flat_map(TermKind::successors).any(|to| to.index() == 0);
-        Self { none_yet: self.alone && !returns && !again, ..self.clone() }
+        let called = self.called.get(index).copied().unwrap_or(true);
+        Self { none_yet: !called && !returns && !again, ..self.clone() }
     }
 
     /// At a block to which other ways may lead; to the first one the program comes.

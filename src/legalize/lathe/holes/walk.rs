@@ -152,7 +152,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             place: Place::keeping_level(),
             speed: None,
             stands: false,
-            waits: waits.begin(program),
+            waits: waits.begin((index, program)),
         };
         for (at, ((block, mut state), straight)) in
             program.blocks.iter_mut().zip(states).zip(straight).enumerate()

@@ -83,6 +83,7 @@ impl<'a> Lowering<'a> {
         self.radius_by_length_word(&mut nc, site.span);
         self.check_m_codes(&seen, site.span);
         self.check_turning(&nc, site.span);
+        self.drops_allowances(&mut nc, site.span);
         if nc.ops().filter(|op| *op == Op::Act).count() > 1 {
             return self.builders_codes(nc, site);
         }

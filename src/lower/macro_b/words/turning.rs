@@ -29,7 +29,7 @@ impl Lowering<'_> {
         if nc.has(Op::MachineOnce) && Role::STEPS.iter().any(|(_, step)| has(*step)) {
             self.findings.not_understood(span, "an increment beside G53: no source says what it counts from");
         }
-        if nc.has(Op::Finish) && nc.names_axis() {
+        if nc.has(Op::Finish) && nc.items.iter().any(is_place) {
             let what = "an axis or an allowance beside the finishing of a contour: no source says what the control does with it";
             let found = Diagnostic::new(Code::NotUnderstood, span, what);
             self.findings.add(found.with_help("leave it out, and write a move into a block of its own"));
@@ -46,6 +46,22 @@ impl Lowering<'_> {
         }
         self.check_corner(nc, span);
         self.check_line(nc, span);
+    }
+
+    /// Beside the finishing of a contour an allowance of 0 says what is so without it, and a depth does nothing where the table says so
+    /// (docs/lathe.md F1): they go.
+    pub fn drops_allowances(&mut self, nc: &mut Nc, span: Span) {
+        if self.control.machine() != Machine::Lathe || !nc.has(Op::Finish) {
+            return;
+        }
+        nc.items.retain(|item| !is_no_allowance(item));
+        if nc.word(Role::CutDepth).is_none() {
+            return;
+        }
+        if self.findings.behaviour(Question::FinishDepth, span).is_none() {
+            self.unknown_behaviour(Question::FinishDepth, span);
+        }
+        nc.items.retain(|item| !matches!(item, NcItem::Word(Role::CutDepth, _)));
     }
 
     /// A letter that is an increment in G code system A, and in another one only where the machine's profile says so.
@@ -214,4 +230,14 @@ impl Lowering<'_> {
         nc.items = rest;
         Some(Nc { items: std::iter::once(NcItem::Op(Op::SetPosition)).chain(words).collect() })
     }
+}
+
+/// An axis word that is no allowance of 0.
+fn is_place(item: &NcItem) -> bool {
+    matches!(item, NcItem::Word(role, _) if role.is_axis()) && !is_no_allowance(item)
+}
+
+/// U or W of 0.
+fn is_no_allowance(item: &NcItem) -> bool {
+    matches!(item, NcItem::Word(Role::StepX | Role::StepZ, value) if value.constant() == Some(0.0))
 }
