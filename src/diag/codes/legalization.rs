@@ -48,6 +48,11 @@ Nothing needs to be done for the shape of the part. Where surface or speed matte
 "The program gives names to variables (SETVN), which the source's control shows beside their values. The target shows no such names, and nothing else reads them. They are left out, and told once a program.
 
 Nothing needs to be done. Tell the operator which register on the target holds what, if somebody looks at the values there: the report lists the registers."
+
+    "0411" CycleWrittenOut Note "a cycle is written out"
+"The cycle takes a length from a setting of the target: how far a peck goes back, what is left of a thread for its last pass. The target's profile states this setting, and the program needs another value, or two cycles of the program need different values. The moves of the cycle stand in its place, so that the machine does the same whatever it is set to.
+
+Nothing needs to be done. To keep the cycle, set the machine as the message says, and write the value into its profile."
         }
     };
 }

@@ -7,9 +7,10 @@
 
 use super::contours::facts_uncompensated;
 use super::cycle_values::{Given, Need, Untold, Values, replace, resolve, told, values_of};
+use super::groove_passes;
 use super::place::Place;
 use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
-use super::setting_values::{Found, So, tell};
+use super::setting_values::{Found, So, Written, tell, written};
 use super::settings::{Kind, setting, stand_in, takes};
 use super::straight::entered_straight;
 use super::thread_passes::{all, finishes, runs_out as single_passes, says_how};
@@ -46,7 +47,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     rough || super::settings::KINDS.iter().any(differs)
 }
 
-/// Gives each cycle its values in the target's form, and writes out the threads for which it has none; gives the programs that this
+/// Gives each cycle its values in the target's form, and writes out the threads and grooves for which it has none; gives the programs that this
 /// changed.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let runs = |stmt: &Stmt| cycle_of(stmt).is_some() || setup_of(stmt).is_some();
@@ -256,13 +257,19 @@ impl Run<'_> {
             Some((what, help)) => Err((what.into(), help.into())),
             None => resolve(all.clone(), kind, self.target),
         };
-        let elsewhere =
-            given.as_ref().is_ok_and(|given| given.needs.iter().any(|need| self.is_set_otherwise(need)));
+        let writes = matches!(kind.cycle, Op::Threading | Op::Groove | Op::FaceGroove);
+        let needs = given.as_ref().ok().filter(|_| writes).map(|given| given.needs.as_slice());
+        let needs = needs.unwrap_or_default();
+        let elsewhere: Vec<Written> = needs.iter().filter_map(|need| self.set_otherwise(need)).collect();
         let mut why = String::new();
-        if threads.is_some() && (given.is_err() || elsewhere) {
+        if (threads.is_some() && given.is_err()) || !elsewhere.is_empty() {
             match may.and_then(|()| self.written_out(&stmt, &all, kind)) {
-                Ok(passes) => return passes,
-                Err(because) => why = format!("; its passes are not written out: {because}"),
+                Ok(passes) => {
+                    let notes = elsewhere.into_iter().map(|(what, help)| (span, what, help, So::Noted));
+                    self.found.extend(notes);
+                    return passes;
+                }
+                Err(because) => why = format!("; its moves are not written out: {because}"),
             }
         }
         let Given { words, setup, finishes: more, angle, needs } = match given {
@@ -279,8 +286,11 @@ impl Run<'_> {
                 "write the program in the unit that the profile of the machine gives",
             );
         }
-        self.found
-            .extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, So::Supposed(needs))));
+        self.found.extend(
+            needs
+                .into_iter()
+                .map(|(what, help, needs)| (span, what, format!("{help}{why}"), So::Supposed(needs))),
+        );
         // No source says by which way a pass in moves would run out: single passes do it as the cycle does.
         let runs_out =
             all.iter().any(|(role, value)| *role == Role::ThreadRunOut && value.constant() != Some(0.0));
@@ -307,17 +317,20 @@ impl Run<'_> {
         setup.into_iter().chain([stmt]).chain(passes.unwrap_or_default()).collect()
     }
 
-    /// True for a setting that is known to be another one on the target, or that a cycle before needs otherwise.
-    fn is_set_otherwise(&self, (.., needs): &Need) -> bool {
-        let Predicate::Setting(name, value) = needs else { return false };
+    /// What is said where moves take the place of a cycle for a setting that is known to be another one on the target, or that a cycle before
+    /// needs otherwise; nothing for another setting.
+    fn set_otherwise(&self, (.., needs): &Need) -> Option<Written> {
+        let Predicate::Setting(name, value) = needs else { return None };
         let before = |(.., so): &(Span, String, String, So)| match so {
             So::Supposed(Predicate::Setting(other, before)) => other == name && before != value,
             _ => false,
         };
-        self.target.setting(name).is_some() || self.found.iter().any(before)
+        let stated = self.target.setting(name);
+        (stated.is_some() || self.found.iter().any(before))
+            .then(|| written((name, *value), stated, &self.target.dialect().title))
     }
 
-    /// The passes of a thread, in place of its cycle; why there are none.
+    /// The moves of a thread or a groove, in place of its cycle; why there are none.
     fn written_out(&mut self, stmt: &Stmt, values: &Values, kind: &Kind) -> Result<Vec<Stmt>, &'static str> {
         if self.in_steps {
             return Err("words of a place may be increments");
@@ -332,6 +345,9 @@ impl Run<'_> {
             Some("trailing.first") => Some(false),
             _ => None,
         };
+        if kind.cycle != Op::Threading {
+            return groove_passes::all(stmt, values, self.place, self.target);
+        }
         let passes = all(stmt, values, leading, self.place, self.target)?;
         let infeed = values.iter().find(|(role, _)| *role == Role::ThreadInfeed);
         if infeed.and_then(|(_, way)| way.constant()).is_some_and(|way| way % 2.0 == 0.0) {
