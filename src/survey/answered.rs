@@ -5,7 +5,7 @@
 //! them, the questions with several answers are left open.
 
 use super::Survey;
-use crate::canon::Group;
+use crate::canon::{Group, Op};
 use crate::dialect::{
     Control, DecimalPoint, Plain, Profile, Question, Settled, Side, SiteCode, Units, Without,
 };
@@ -27,8 +27,8 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
         now.into_iter().chain(later).collect::<Vec<Answer>>()
     };
     let codes = survey.codes.iter().take(CODES).map(|asked| -> Answer {
-        let (code, words) = (asked.code.clone(), asked.words.clone());
-        Box::new(move |profile| profile.site.push(site(&code, &words)))
+        let (code, words, op) = (asked.code.clone(), asked.words.clone(), asked.op);
+        Box::new(move |profile| profile.site.push(site(&code, &words, op)))
     });
     // The unit has a question of its own.
     let begins = survey.start.iter().filter(|asked| asked.group != Group::Units);
@@ -36,10 +36,15 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let start = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &begins)) });
     let answered = with(
         source,
-        codes.chain(asked(source, target)).chain(start).chain(settings(survey, Side::Source)).collect(),
+        codes
+            .chain(asked(source, target))
+            .chain(start)
+            .chain(settings(survey, Side::Source))
+            .chain(words(survey, Side::Source))
+            .collect(),
     );
-    let target =
-        with(target, asked(target, source).into_iter().chain(settings(survey, Side::Target)).collect());
+    let there = asked(target, source).into_iter().chain(settings(survey, Side::Target));
+    let target = with(target, there.chain(words(survey, Side::Target)).collect());
     let as_they_are = [answered.clone(), target.clone()];
     Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])
 }
@@ -49,6 +54,17 @@ fn settings<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answ
     survey.settings.iter().filter(move |asked| asked.side == side).map(|asked| -> Answer {
         let (section, name, value) = (asked.section, asked.name.clone(), asked.usual());
         Box::new(move |profile| set(profile, section, &name, &value))
+    })
+}
+
+/// The words that codes lack, each by the name that it has or by its letter.
+fn words<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answer> + use<'s> {
+    survey.words.iter().filter(move |asked| asked.side == side).map(|asked| -> Answer {
+        let (code, letter, name) = (asked.code.clone(), asked.letter.to_string(), asked.name.clone());
+        Box::new(move |profile| {
+            let sites = profile.site.iter_mut().filter(|site| site.code == code);
+            sites.for_each(|site| _ = site.words.entry(letter.clone()).or_insert_with(|| name.clone()));
+        })
     })
 }
 
@@ -64,17 +80,17 @@ fn begin(profile: &mut Profile, codes: &[String]) {
     profile.start.codes = (!all.is_empty()).then(|| all.join(" "));
 }
 
-/// A code that means nothing to the target.
-fn site(code: &str, words: &[char]) -> SiteCode {
+/// A code that means nothing to the target, or does what it is likely to do.
+fn site(code: &str, words: &[char], op: Option<Op>) -> SiteCode {
     SiteCode {
         code: code.to_owned(),
         name: None,
-        op: None,
+        op,
         text: code.to_owned(),
         fixed: BTreeMap::new(),
         words: words.iter().map(|letter| (letter.to_string(), letter.to_string())).collect(),
         target: None,
-        without: Some(Without::Omit),
+        without: Some(Without::Omit).filter(|_| op.is_none()),
         calls: None,
         arguments: false,
         reads: BTreeMap::new(),
