@@ -70,10 +70,10 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
 }
 
 /// What is said where moves take the place of a cycle, and what to do to keep the cycle.
-pub(super) type Written = (String, String);
+pub(super) type Instead = (String, String);
 
 /// The same, for a setting that the cycle needs with a value, and what the profile says of it.
-pub(super) fn written((name, value): (&str, f64), stated: Option<&str>, title: &str) -> Written {
+pub(super) fn written((name, value): (&str, f64), stated: Option<&str>, title: &str) -> Instead {
     let (kind, number) = setting_named(name);
     let now = stated.map_or("a cycle before needs another value".to_owned(), |stated| {
         format!("the profile of the {title} says {stated}")
