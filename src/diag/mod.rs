@@ -5,6 +5,7 @@ mod codes;
 pub use codes::{ALL, Code};
 
 use crate::assume::{Assumption, Predicate};
+use crate::canon::Op;
 use crate::text::Span;
 use std::sync::Arc;
 
@@ -54,13 +55,36 @@ pub struct Diagnostic {
     /// What the conversion supposes there.
     pub assumes: Option<Arc<Predicate>>,
     /// The code, letter and number, of which the source's machine profile may say what the builder made of it.
-    pub asks: Option<(char, f64)>,
+    pub asks: Option<Arc<Asks>>,
     /// The setting that the source's machine profile would have to state, as its table names it.
     pub setting: Option<Arc<str>>,
     /// True for what a person decides once for the library and its machines: a program has a note of it.
     pub once: bool,
     /// Who accepted it, if somebody did: it asks nothing then.
     pub accepted: Option<Arc<Accepted>>,
+}
+
+/// What a machine profile may say of a code.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Asks {
+    /// What the source's builder made of it.
+    Code {
+        /// The code: `M14`, or `M3 P11`.
+        code: Arc<str>,
+        /// What it is likely to do.
+        op: Option<Op>,
+    },
+    /// A word that it takes, of a code that the profile names.
+    Word {
+        /// True for the target's profile.
+        target: bool,
+        /// The code.
+        code: Arc<str>,
+        /// The letter.
+        letter: char,
+        /// What the shop calls it.
+        name: Arc<str>,
+    },
 }
 
 impl Diagnostic {
@@ -88,8 +112,14 @@ impl Diagnostic {
 
     /// Names the code whose meaning the source's machine profile may say.
     #[must_use]
-    pub fn asking(mut self, letter: char, number: f64) -> Self {
-        self.asks = Some((letter, number));
+    pub fn asking(self, letter: char, number: f64) -> Self {
+        self.asking_for(Asks::Code { code: format!("{letter}{number}").into(), op: None })
+    }
+
+    /// Names what a machine profile may say of a code.
+    #[must_use]
+    pub fn asking_for(mut self, asks: Asks) -> Self {
+        self.asks = Some(Arc::new(asks));
         self
     }
 

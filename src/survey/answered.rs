@@ -5,7 +5,7 @@
 //! them, the questions with several answers are left open.
 
 use super::{AskedStart, Survey};
-use crate::canon::Group;
+use crate::canon::{Group, Op};
 use crate::dialect::{
     Control, DecimalPoint, Plain, Profile, Question, Settled, Side, SiteCode, Units, Without,
 };
@@ -27,8 +27,8 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
         now.into_iter().chain(later).collect::<Vec<Answer>>()
     };
     let codes = survey.codes.iter().take(CODES).map(|asked| -> Answer {
-        let (code, words) = (asked.code.clone(), asked.words.clone());
-        Box::new(move |profile| profile.site.push(site(&code, &words)))
+        let (code, words, op) = (asked.code.clone(), asked.words.clone(), asked.op);
+        Box::new(move |profile| profile.site.push(site(&code, &words, op)))
     });
     // The unit has a question of its own.
     let begins = survey.start.iter().filter(|asked| asked.group != Group::Units);
@@ -38,12 +38,18 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let start_there = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &there)) });
     let answered = with(
         source,
-        codes.chain(asked(source, target)).chain(start).chain(settings(survey, Side::Source)).collect(),
+        codes
+            .chain(asked(source, target))
+            .chain(start)
+            .chain(settings(survey, Side::Source))
+            .chain(words(survey, Side::Source))
+            .collect(),
     );
     let programs = super::programs::entries(survey);
     let stand: Answer = Box::new(move |profile| profile.programs.extend(programs.iter().cloned()));
     let of_target = asked(target, source).into_iter().chain(start_there).chain([stand]);
-    let target = with(target, of_target.chain(settings(survey, Side::Target)).collect());
+    let of_target = of_target.chain(settings(survey, Side::Target)).chain(words(survey, Side::Target));
+    let target = with(target, of_target.collect());
     let as_they_are = [answered.clone(), target.clone()];
     Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])
 }
@@ -67,6 +73,17 @@ fn settings<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answ
     })
 }
 
+/// The words that codes lack, each by the name that it has or by its letter.
+fn words<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answer> + use<'s> {
+    survey.words.iter().filter(move |asked| asked.side == side).map(|asked| -> Answer {
+        let (code, letter, name) = (asked.code.clone(), asked.letter.to_string(), asked.name.clone());
+        Box::new(move |profile| {
+            let sites = profile.site.iter_mut().filter(|site| site.code == code);
+            sites.for_each(|site| _ = site.words.entry(letter.clone()).or_insert_with(|| name.clone()));
+        })
+    })
+}
+
 fn set(profile: &mut Profile, section: &str, name: &str, value: &str) {
     let section = if section == "parameters" { &mut profile.parameters } else { &mut profile.settings };
     section.insert(name.to_owned(), Plain::Word(value.to_owned()));
@@ -79,17 +96,17 @@ fn begin(profile: &mut Profile, codes: &[String]) {
     profile.start.codes = (!all.is_empty()).then(|| all.join(" "));
 }
 
-/// A code that means nothing to the target.
-fn site(code: &str, words: &[char]) -> SiteCode {
+/// A code that means nothing to the target, or does what it is likely to do.
+fn site(code: &str, words: &[char], op: Option<Op>) -> SiteCode {
     SiteCode {
         code: code.to_owned(),
         name: None,
-        op: None,
+        op,
         text: code.to_owned(),
         fixed: BTreeMap::new(),
         words: words.iter().map(|letter| (letter.to_string(), letter.to_string())).collect(),
         target: None,
-        without: Some(Without::Omit),
+        without: Some(Without::Omit).filter(|_| op.is_none()),
         calls: None,
         arguments: false,
         reads: BTreeMap::new(),

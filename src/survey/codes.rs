@@ -2,7 +2,8 @@
 
 use super::beside::{Beside, beside, most};
 use super::shape::{NAMED, Places};
-use crate::diag::Severity;
+use crate::canon::Op;
+use crate::diag::{Asks, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::library::{Input, Outcome, ProgramReport};
 use crate::text::Span;
@@ -26,6 +27,14 @@ pub struct AskedCode {
     pub block: String,
     /// The letters that stand with it in blocks of its own: its words, as far as one can see.
     pub words: Vec<char>,
+    /// What it is likely to do, where a word of the builder stands beside a code of the control: `M3 P11`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub op: Option<Op>,
+}
+
+/// True of a finding that waits for what a code does.
+pub(super) fn asks_code(finding: &Diagnostic) -> bool {
+    matches!(finding.asks.as_deref(), Some(Asks::Code { .. }))
 }
 
 /// The codes that programs wait for; what frees most programs is first.
@@ -37,18 +46,19 @@ pub(super) fn asked(
 ) -> Vec<AskedCode> {
     let mut found: BTreeMap<String, Vec<(usize, Span)>> = BTreeMap::new();
     let mut frees: BTreeMap<String, usize> = BTreeMap::new();
+    let mut ops: BTreeMap<String, Op> = BTreeMap::new();
     for (at, program) in programs.iter().enumerate() {
         let mut asks = BTreeSet::new();
         for finding in &program.diagnostics {
-            if let Some((letter, number)) = finding.asks {
-                let code = format!("{letter}{number}");
+            if let Some(Asks::Code { code, op }) = finding.asks.as_deref() {
+                let code = code.to_string();
+                ops.extend(op.map(|op| (code.clone(), op)));
                 found.entry(code.clone()).or_default().push((at, finding.span));
                 asks.insert(code);
             }
         }
-        let other = |finding: &&crate::diag::Diagnostic| {
-            finding.severity() == Severity::Error && finding.asks.is_none()
-        };
+        let other =
+            |finding: &&crate::diag::Diagnostic| finding.severity() == Severity::Error && !asks_code(finding);
         let alone = !program.diagnostics.iter().any(|finding| other(&finding));
         if let (Some(code), true) = (asks.pop_first(), alone && program.outcome == Outcome::Refused)
             && asks.is_empty()
@@ -84,7 +94,11 @@ pub(super) fn asked(
             frees: frees.get(&code).copied().unwrap_or_default(),
             comment: most(all.iter().filter_map(|one| text(one)?.comment.clone())),
             block: all.first().and_then(text).map(|beside| beside.block.clone()).unwrap_or_default(),
-            words: {
+            op: ops.get(&code).copied(),
+            // What stands in the code's own name is no word of it.
+            words: if ops.contains_key(&code) {
+                Vec::new()
+            } else {
                 let letters = all.iter().filter_map(text).flat_map(|beside| beside.letters.iter().copied());
                 letters.collect::<BTreeSet<_>>().into_iter().collect()
             },

@@ -5,7 +5,8 @@
 //! what is left of both, and puts its own in.
 
 use super::start::lines as lines_of_start;
-use super::{AskedSetting, Survey};
+use super::words::with_words;
+use super::{AskedSetting, AskedWord, Survey};
 use crate::dialect::{Control, Machine, Profile, Settled, Side};
 use crate::report::{Fact, Questions};
 use std::collections::BTreeMap;
@@ -70,6 +71,8 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     let point = survey.with_questions(|questions| point(questions, control));
     let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
     text = with_machine(&text, control.profile(), lathe.map(|(line, _)| line), point);
+    let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
+    text = with_words(&text, &words, (ASKS, TELLS));
     match side {
         Side::Source => codes(&mut text, survey),
         Side::Target => text = super::programs::asked_in(&text, survey),
@@ -283,7 +286,13 @@ fn codes(text: &mut String, survey: &Survey<'_>) {
         let said: String =
             said.chars().filter(|letter| !letter.is_control() && !"\"\\".contains(*letter)).collect();
         let _ = writeln!(text, "{ASKS} text = \"{said}\" # as in: {}", plain(&code.block));
-        let _ = writeln!(text, "{ASKS} name = \"\"");
+        let _ = match code.op {
+            Some(op) => writeln!(
+                text,
+                "{ASKS} op = \"{op}\" # where P says the spindle that the target's code turns too; else name = \"\" in its place"
+            ),
+            None => writeln!(text, "{ASKS} name = \"\""),
+        };
         if !code.words.is_empty() {
             let words =
                 code.words.iter().map(|letter| format!("{letter} = \"{letter}\"")).collect::<Vec<_>>();

@@ -1,6 +1,6 @@
 //! A survey for programs. Its keys are a contract.
 
-use super::{AskedCode, AskedSetting, AskedStart, Outcomes, Shape, Survey};
+use super::{AskedCode, AskedSetting, AskedStart, AskedWord, Outcomes, Shape, Survey};
 use crate::diag::{Code, Severity};
 use crate::dialect::Side;
 use crate::report::{Question, Questions};
@@ -18,6 +18,7 @@ struct Report<'a> {
     start: &'a [AskedStart],
     start_of_target: &'a [AskedStart],
     settings: Vec<Setting<'a>>,
+    words: Vec<Word<'a>>,
     questions: Vec<Asked<'a>>,
     /// What is asked once all of that is answered.
     later: Vec<Asked<'a>>,
@@ -50,6 +51,14 @@ struct Setting<'a> {
 }
 
 #[derive(Serialize)]
+struct Word<'a> {
+    /// The control whose profile names it.
+    machine: &'a str,
+    #[serde(flatten)]
+    asked: &'a AskedWord,
+}
+
+#[derive(Serialize)]
 struct Stays<'a> {
     why: &'a str,
     programs: usize,
@@ -64,6 +73,10 @@ pub fn json(survey: &Survey<'_>) -> String {
         asked,
     });
     let settings: Vec<Setting<'_>> = settings.collect();
+    let words = survey.words.iter().map(|asked| Word {
+        machine: if asked.side == Side::Source { source } else { target }.name(),
+        asked,
+    });
     survey.with_later(|later| {
         survey.with_questions(|questions| {
             let report = Report {
@@ -75,6 +88,7 @@ pub fn json(survey: &Survey<'_>) -> String {
                 start: &survey.start,
                 start_of_target: &survey.start_of_target,
                 settings,
+                words: words.collect(),
                 questions: all(questions),
                 later: all(later),
                 now: survey.now,

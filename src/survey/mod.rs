@@ -13,6 +13,7 @@ mod programs;
 mod shape;
 mod start;
 mod text;
+mod words;
 
 pub use codes::AskedCode;
 pub use filled::{Unfit, filled};
@@ -21,6 +22,7 @@ pub use keys::AskedSetting;
 pub use shape::{Missing, Shape};
 pub use start::AskedStart;
 pub use text::text;
+pub use words::AskedWord;
 
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
@@ -54,6 +56,8 @@ pub struct Survey<'a> {
     pub start_of_target: Vec<AskedStart>,
     /// Settings of the machines that programs wait for; those of most programs are first.
     pub settings: Vec<AskedSetting>,
+    /// Words that the profiles of the machines would have to name at codes of their builders.
+    pub words: Vec<AskedWord>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
@@ -113,9 +117,10 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     }
     let controls = [source, target.unwrap_or(source)];
     let settings = keys::asked(&places, controls, &conversion.programs);
+    let words = words::asked(&places, &conversion.programs);
     for program in &mut conversion.programs {
         let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);
-        program.diagnostics.retain(|finding| finding.asks.is_none() && !of_shape(finding.code));
+        program.diagnostics.retain(|finding| !codes::asks_code(finding) && !of_shape(finding.code));
     }
     let goes = target.is_some();
     let mut survey = Survey {
@@ -129,6 +134,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         start,
         start_of_target,
         settings,
+        words,
         rest: conversion,
         then: Vec::new(),
         now,
@@ -156,14 +162,17 @@ impl Survey<'_> {
         let Some(best) = best else { return false };
         self.answered = Some(Outcomes::of(&best.programs));
         self.stays = reasons(&best.programs);
-        let known = (self.settings.len(), self.asked_later());
+        let known = (self.settings.len(), self.words.len(), self.asked_later());
         let asked = keys::asked(places, self.controls, &best.programs);
         let is_known =
             |new: &AskedSetting| self.settings.iter().any(|old| old.side == new.side && old.name == new.name);
         let new: Vec<AskedSetting> = asked.into_iter().filter(|new| !is_known(new)).collect();
         self.settings.extend(new);
+        let words = words::asked(places, &best.programs).into_iter();
+        let words: Vec<AskedWord> = words.filter(|new| !self.words.iter().any(|old| old.is(new))).collect();
+        self.words.extend(words);
         self.then.push(best);
-        known != (self.settings.len(), self.asked_later())
+        known != (self.settings.len(), self.words.len(), self.asked_later())
     }
 
     /// How many facts are asked of the machines once others are known.

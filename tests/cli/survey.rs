@@ -280,3 +280,42 @@ fn a_builders_code_is_asked_with_its_words() {
     assert!(run.out.contains(" 0 refused"), "{}{}", run.out, run.err);
     assert_eq!(run.out.matches("is left out").count(), 2, "{}", run.out);
 }
+
+/// A word of the builder that says which spindle a code turns is asked with that code, and words that a profile lacks at its codes are asked there;
+/// once that is answered the program is free.
+#[test]
+fn words_beside_codes_of_the_spindle_are_asked_once() {
+    let text = "O1\nG97S800M3P11\nM213 P2.\nM213 P3.\nG0 X50. Z2.\nM5 P11\nM30\n";
+    let shop = Shop::with(&[("lib/a.nc", text)]);
+    let head = |dialect: &str, code: &str| {
+        let start = "[start]\ncodes = \"G21 G18 G99 G54 G0\"\n";
+        let system = if dialect == "fanuc" { "[settings]\ngcode_system = \"A\"\n" } else { "" };
+        format!(
+            "dialect = \"{dialect}\"\nmachine = \"lathe\"\nunits = \"metric\"\ndecimal_point = \"calculator\"\n{start}{system}[[site]]\ncode = \
+             \"{code}\"\ntext = \"a\"\nname = \"level\"\n"
+        )
+        .replace(if dialect == "haas" { "decimal_point = \"calculator\"\n" } else { "\u{0}" }, "")
+    };
+    shop.write("f.toml", head("fanuc", "M213").as_bytes());
+    shop.write("h.toml", head("haas", "M513").as_bytes());
+    let survey = "survey lib --machine f.toml --machine h.toml --to haas --write f.toml";
+    for _ in 0..2 {
+        let run = shop.run(survey);
+        assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+        let (ours, theirs) = (shop.read("f.toml"), shop.read("h.toml"));
+        for line in ["#? code = \"M3 P11\"\n", "#? code = \"M5 P11\"\n", "#? op = \"spindle.cw\" # "] {
+            assert_eq!(ours.matches(line).count(), 1, "{line}{ours}");
+        }
+        for text in [&ours, &theirs] {
+            assert_eq!(text.matches("#? words = { P = \"P\" } # ").count(), 1, "{text}");
+        }
+    }
+    for (name, path) in [("f.toml", shop.read("f.toml")), ("h.toml", shop.read("h.toml"))] {
+        let text = path.replace("#? [[site]]", "[[site]]").replace("#? code", "code").replace("#? op", "op");
+        let text = text.replace("#? text = \"\"", "text = \"a\"").replace("#? words", "words");
+        shop.write(name, text.as_bytes());
+    }
+    let run = shop.run("convert lib/a.nc --machine f.toml --machine h.toml --to haas --out out");
+    assert!(run.out.contains(" 0 refused"), "{}{}", run.out, run.err);
+    assert!(shop.read("out/a.nc").contains("M513 P2\n"), "{}", shop.read("out/a.nc"));
+}

@@ -53,6 +53,11 @@ Nothing needs to be done. Tell the operator which register on the target holds w
 "The control of the source makes a move here that no word of the block names, such as the turning pass in force once more for coolant alone. The target does not, so the move is written out.
 
 Nothing needs to be done if the program cuts as it should on the source. If the move was never meant, take it out there: end the pass with G0 before the block."
+
+    "0412" CycleWrittenOut Note "a cycle is written out"
+"The cycle takes a length from a setting of the target: how far a peck goes back, what is left of a thread for its last pass. The target's profile states this setting, and the program needs another value, or two cycles of the program need different values. The moves of the cycle stand in its place, so that the machine does the same whatever it is set to.
+
+Nothing needs to be done. To keep the cycle, set the machine as the message says, and write the value into its profile."
         }
     };
 }

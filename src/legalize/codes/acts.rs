@@ -7,7 +7,7 @@
 
 use crate::assume::Predicate;
 use crate::canon::{Act, Auxiliary, Op, Role};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::{SiteCode, Without};
 use crate::ir::{Expr, Module, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
@@ -49,11 +49,14 @@ fn replace(mut stmt: Stmt, index: usize, out: &mut Stmts, context: &mut Context<
                 row.code,
                 of(act, context)
             );
+            let letter = letter_of(act, &word, context);
             let help = format!(
-                "name its letter in the target's profile: words = {{ P = \"{word}\" }} at {}",
+                "name its letter in the target's profile: words = {{ {letter} = \"{word}\" }} at {}",
                 row.code
             );
-            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+            let (code, name) = (row.code.as_str().into(), word.as_str().into());
+            let told = Diagnostic::new(Code::NoEquivalent, span, what).with_help(help);
+            context.add(index, told.asking_for(Asks::Word { target: true, code, letter, name }));
         }
         return out.push(stmt);
     }
@@ -83,6 +86,13 @@ fn replace(mut stmt: Stmt, index: usize, out: &mut Stmts, context: &mut Context<
         let head = Stmt { site: std::mem::replace(&mut stmt.site, aside.site), kind: aside.kind };
         out.extend([head, stmt]);
     }
+}
+
+/// The letter that a word has at the source's code, by the name that the shop gave it.
+fn letter_of(act: Act, word: &str, context: &Context<'_>) -> char {
+    let words = context.source.site_of(act).map(|site| &site.words);
+    let letters = words.into_iter().flatten().filter(|(_, name)| *name == word);
+    letters.filter_map(|(letter, _)| letter.chars().next()).next().unwrap_or('P')
 }
 
 /// What takes the place of a code that the target does not have; none if nothing does.

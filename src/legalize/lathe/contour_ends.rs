@@ -250,7 +250,7 @@ impl End {
         let mut changes: Vec<(At, Option<[f64; 2]>)> =
             self.finishes.iter().map(|(at, from)| (*at, Some(*from))).collect();
         changes.push((last, None));
-        changes.sort_by(|one, other| other.0.cmp(&one.0));
+        changes.sort_by_key(|(at, _)| std::cmp::Reverse(*at));
         for block in &mut program.blocks {
             for stmt in &mut block.stmts {
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
@@ -270,11 +270,7 @@ impl End {
             match from {
                 Some(from) => {
                     written.push(cycle.site.span);
-                    let mut at = count;
-                    for stmt in moves(&cycle, &contour, from) {
-                        block.insert(at, stmt);
-                        at += 1;
-                    }
+                    block.splice(count..count, moves(&cycle, &contour, from));
                 }
                 None => {
                     if !cycle.site.comments.is_empty() {

@@ -1,12 +1,11 @@
 //! What a cycle of a lathe takes besides its own words: where the source gives each value, and where the target takes it from.
 
-use super::settings::{Kind, row, setting, stand_in, takes};
+use super::settings::{Kind, row, row_for, setting, stand_in, takes};
 use super::thread_form;
 use crate::assume::Predicate;
 use crate::canon::Role;
 use crate::dialect::{Control, Setting};
-use crate::ir::{Expr, Nc, NcItem, Stmt};
-use crate::legalize::features::Features;
+use crate::ir::{Expr, Module, Nc, NcItem, Stmt};
 use std::sync::Arc;
 
 /// What a cycle takes besides its own words.
@@ -39,6 +38,38 @@ impl From<(String, String)> for Untold {
     }
 }
 
+/// What the blocks of a library set, each for a kind: a value that a setting stands in for may be one of these.
+pub(super) struct Written(Vec<(&'static Kind, Role, Expr)>);
+
+impl Written {
+    /// That of all programs, where the source has such settings.
+    pub(super) fn of(module: &Module, source: &Control) -> Self {
+        if source.dialect().settings.iter().all(|row| row.otherwise.is_none()) {
+            return Self(Vec::new());
+        }
+        let blocks = module.programs.iter().flat_map(|program| &program.blocks);
+        let stmts = blocks.flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+        let setups = stmts.filter_map(|nc| Some((nc, nc.ops().find_map(Kind::of_setup)?)));
+        let values = setups.flat_map(|(nc, kind)| {
+            values_of(nc, kind).into_iter().map(move |(role, value)| (kind, role, value))
+        });
+        Self(values.collect())
+    }
+
+    /// True where a block sets the role for a kind to anything else.
+    fn others(&self, source: &Control, kind: &'static Kind, role: Role, value: f64) -> bool {
+        let part = thread_form::PARTS.contains(&role);
+        let Some(row) = row_for(source, kind.cycle, role) else { return false };
+        self.0.iter().any(|(by, found, set)| {
+            row.cycles.contains(&by.cycle)
+                && match found {
+                    Role::ThreadForm => part,
+                    found => *found == role && set.constant() != Some(value),
+                }
+        })
+    }
+}
+
 /// The values that a block's own words give.
 pub(super) fn values_of(nc: &Nc, kind: &Kind) -> Values {
     let words = nc.items.iter().filter_map(|item| match item {
@@ -54,20 +85,21 @@ pub(super) fn replace(values: &mut Values, new: Values) {
     values.extend(new);
 }
 
-/// All that a cycle takes besides its own words; if something of it is not told: what, and what to do.
+/// All that a cycle takes besides its own words, and whether some of it is what a setting stands in for; if something of it is not told: what,
+/// and what to do.
 pub(super) fn told(
     stmt: &Stmt,
     kind: &'static Kind,
     before: Option<Values>,
-    (source, features): (&Control, &Features),
-) -> Result<Values, Untold> {
-    let mut values = given(stmt, kind, before, (source, features))?;
+    (source, written): (&Control, &Written),
+) -> Result<(Values, bool), Untold> {
+    let (mut values, stood_in) = given(stmt, kind, before, (source, written))?;
     if !thread_form::apart(&mut values) {
         let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
         return Err((what.to_owned(), "write the number as it is: P021060".to_owned()).into());
     }
     usual(&mut values);
-    Ok(values)
+    Ok((values, stood_in))
 }
 
 /// The words of the cycle's own block, and of the block before it.
@@ -115,29 +147,40 @@ fn given(
     stmt: &Stmt,
     kind: &'static Kind,
     before: Option<Values>,
-    (source, features): (&Control, &Features),
-) -> Result<Values, Untold> {
+    (source, written): (&Control, &Written),
+) -> Result<(Values, bool), Untold> {
     let mut values = before.unwrap_or_default();
     let own = stmt.kind.nc().map(|nc| values_of(nc, kind)).unwrap_or_default();
     replace(&mut values, own);
+    let mut stood_in = false;
     for role in kind.roles {
-        if values.iter().any(|(found, _)| found == role) {
+        let form = |found: &Role| *found == Role::ThreadForm && thread_form::PARTS.contains(role);
+        if values.iter().any(|(found, _)| found == role || form(found)) {
             continue;
         }
-        let by_setting = setting(source, kind.cycle, *role);
-        match by_setting.or_else(|| stand_in(source, features, kind.cycle, *role)) {
+        match setting(source, kind.cycle, *role) {
             Some((_, Some(value))) => values.push((*role, Expr::Number(value))),
             Some((name, None)) => return Err(of_setting(source, name, *role)),
-            None => {}
+            None => match stand_in(source, kind.cycle, *role) {
+                Some((name, Some(value))) if written.others(source, kind, *role, value) => {
+                    return Err(changed(source, kind, *role, name).into());
+                }
+                Some((_, Some(value))) => {
+                    values.push((*role, Expr::Number(value)));
+                    stood_in = true;
+                }
+                Some((name, None)) => return Err(of_setting(source, name, *role)),
+                None => {}
+            },
         }
     }
-    let missing = kind
-        .roles
-        .iter()
-        .find(|role| needs(source, kind, **role) && values.iter().all(|(found, _)| found != *role));
-    match missing {
+    let has = |role: &Role| values.iter().any(|(found, _)| found == role);
+    // Settings may stand in for all parts of a thread's form.
+    let is_told =
+        |role: &Role| has(role) || (*role == Role::ThreadForm && thread_form::PARTS.iter().all(has));
+    match kind.roles.iter().find(|role| needs(source, kind, **role) && !is_told(role)) {
         Some(role) => Err(not_set(source, kind, *role).into()),
-        None => Ok(values),
+        None => Ok((values, stood_in)),
     }
 }
 
@@ -159,6 +202,13 @@ fn not_set(source: &Control, kind: &Kind, role: Role) -> (String, String) {
         ),
         None => (format!("the block does not say {}", meaning(role)), "write the word for it".into()),
     }
+}
+
+/// What is said where a setting stands in for a word, and blocks of the library set it to something else.
+fn changed(source: &Control, kind: &'static Kind, role: Role, name: &str) -> (String, String) {
+    let (what, help) = not_set(source, kind, role);
+    let (of, number) = setting_named(name);
+    (format!("{what}, and other blocks of the library change {of} {number}, which counts then"), help)
 }
 
 fn of_setting(control: &Control, name: &str, role: Role) -> Untold {

@@ -6,11 +6,12 @@
 //! otherwise.
 
 use super::contours::facts_uncompensated;
-use super::cycle_values::{Given, Need, Untold, Values, replace, resolve, told, values_of};
+use super::cycle_values::{Given, Need, Untold, Values, Written, replace, resolve, told, values_of};
+use super::groove_passes;
 use super::place::Place;
 use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
-use super::setting_values::{Found, So, tell};
-use super::settings::{Kind, setting, stand_in, takes};
+use super::setting_values::{Found, Instead, So, tell, written};
+use super::settings::{Kind, block_before, setting, share, stands_in, takes};
 use super::straight::entered_straight;
 use super::thread_passes::{all, finishes, runs_out as single_passes, says_how};
 use super::threads::{beyond, flanks_are_open};
@@ -40,39 +41,46 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
                 takes(context.source, kind.setup, *role) != takes(context.target, kind.setup, *role)
                     || takes(context.source, kind.cycle, *role) != takes(context.target, kind.cycle, *role)
                     || apart(kind, *role)
-                    || stand_in(context.source, features, kind.cycle, *role).is_some()
+                    || stands_in(context.source, features, kind.cycle, *role)
             })
     };
     rough || super::settings::KINDS.iter().any(differs)
 }
 
-/// Gives each cycle its values in the target's form, and writes out the threads for which it has none; gives the programs that this
+/// Gives each cycle its values in the target's form, and writes out the threads and grooves for which it has none; gives the programs that this
 /// changed.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let runs = |stmt: &Stmt| cycle_of(stmt).is_some() || setup_of(stmt).is_some();
     let has = |program: &Program| program.blocks.iter().any(|block| block.stmts.iter().any(runs));
     let with: Vec<usize> = (0..module.programs.len()).filter(|at| has(&module.programs[*at])).collect();
     let (called, main) = (context.modal_facts(module), facts_uncompensated(module, context));
+    let written = Written::of(module, context.source);
     let mut all = Vec::new();
     for index in &with {
         let program = &mut module.programs[*index];
         // Who calls one that returns, the library may not know; others begin after a reset or an end (docs/lathe.md Q1).
         let facts = if returns(program) { &called } else { &main };
         let states = program.ids().map(|id| facts.at(*index, id)).collect();
-        let found = each(program, states, *index, context);
+        let found = each(program, states, (*index, &written), context);
         all.push((*index, found));
     }
     tell(all, module, context);
     with
 }
 
-fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut Context<'_>) -> Found {
+fn each(
+    program: &mut Program,
+    states: Vec<Modal>,
+    (index, written): (usize, &Written),
+    context: &mut Context<'_>,
+) -> Found {
     let straight = entered_straight(program);
     let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
     let mut run = Run {
         source: context.source,
         target: context.target,
         features: &context.features,
+        written,
         other_unit,
         modal: context.features.has(Feature::Modal),
         in_steps: context.features.op(Op::Incremental),
@@ -110,9 +118,9 @@ fn setup_of(stmt: &Stmt) -> Option<&'static Kind> {
     stmt.kind.nc()?.ops().find_map(Kind::of_setup)
 }
 
-/// What a block before has set for the cycles of a kind.
+/// What blocks before have set for the cycles of a kind, and of those that share what is set.
 struct Set {
-    setup: Op,
+    kind: &'static Kind,
     values: Values,
     /// True once something ran that may change what a computed value is.
     passed: bool,
@@ -135,6 +143,8 @@ struct Run<'c> {
     source: &'c Control,
     target: &'c Control,
     features: &'c Features,
+    /// What the blocks of the library set.
+    written: &'c Written,
     /// True where the program may run in another unit than the one that the settings are in.
     other_unit: bool,
     /// True where a macro may run after each move, and leave the tool elsewhere.
@@ -189,7 +199,7 @@ impl Run<'_> {
     }
 
     /// Takes the values of a block that sets them; what else it does stays. It is written anew where the target has such a block.
-    fn setup(&mut self, kind: &Kind, mut stmt: Stmt) -> Option<Stmt> {
+    fn setup(&mut self, kind: &'static Kind, mut stmt: Stmt) -> Option<Stmt> {
         let nc = stmt.kind.nc()?;
         let values = values_of(nc, kind);
         let own = |item: &NcItem| match item {
@@ -209,14 +219,14 @@ impl Run<'_> {
         if rest.iter().any(moves) {
             self.refuse(stmt.site.span, MOVES, "give the move a block of its own");
         }
-        match self.set.iter_mut().find(|set| set.setup == kind.setup) {
+        match self.set.iter_mut().find(|set| share(self.source, set.kind, kind)) {
             Some(set) => {
                 // What it computed before may be old, and what this block leaves out stays.
                 let stale = set.is_stale();
                 replace(&mut set.values, values);
                 set.passed = stale;
             }
-            None => self.set.push(Set { setup: kind.setup, values, passed: false }),
+            None => self.set.push(Set { kind, values, passed: false }),
         }
         stmt.kind = if rest.is_empty() { StmtKind::Comment } else { StmtKind::Nc(Nc { items: rest }) };
         let empty = matches!(stmt.kind, StmtKind::Comment) && stmt.site.comments.is_empty();
@@ -228,7 +238,7 @@ impl Run<'_> {
         let written = |role: &Role| setup.iter().any(|(found, _)| found == role);
         kind.roles.iter().any(|role| {
             let there = setting(self.source, kind.cycle, *role).is_some()
-                || stand_in(self.source, self.features, kind.cycle, *role).is_some();
+                || stands_in(self.source, self.features, kind.cycle, *role);
             let here = setting(self.target, kind.cycle, *role).is_some() && !written(role);
             role.is_length() && (there || here)
         })
@@ -238,14 +248,14 @@ impl Run<'_> {
     /// does not make; or all passes of a thread that the target has no cycle for.
     fn cycle(&mut self, kind: &'static Kind, mut stmt: Stmt, may: Result<(), &'static str>) -> Vec<Stmt> {
         let span = stmt.site.span;
-        let set = self.set.iter().find(|set| set.setup == kind.setup);
+        let set = self.set.iter().find(|set| share(self.source, set.kind, kind));
         if set.is_some_and(Set::is_stale) {
             self.refuse(span, STALE, "write the block that sets it right before this one");
             return vec![stmt];
         }
         let before = set.map(|set| set.values.clone());
-        let all = match told(&stmt, kind, before, (self.source, self.features)) {
-            Ok(values) => values,
+        let (all, stood_in) = match told(&stmt, kind, before, (self.source, self.written)) {
+            Ok(told) => told,
             Err(Untold(what, help, lacks)) => {
                 self.found.push((span, what, help, lacks.map_or(So::Refused, So::Lacks)));
                 return vec![stmt];
@@ -256,13 +266,20 @@ impl Run<'_> {
             Some((what, help)) => Err((what.into(), help.into())),
             None => resolve(all.clone(), kind, self.target),
         };
-        let elsewhere =
-            given.as_ref().is_ok_and(|given| given.needs.iter().any(|need| self.is_set_otherwise(need)));
+        let writes = matches!(kind.cycle, Op::Threading | Op::Groove | Op::FaceGroove);
+        let needs = given.as_ref().ok().filter(|_| writes).map(|given| given.needs.as_slice());
+        let needs = needs.unwrap_or_default();
+        let elsewhere: Vec<Instead> = needs.iter().filter_map(|need| self.set_otherwise(need)).collect();
         let mut why = String::new();
-        if threads.is_some() && (given.is_err() || elsewhere) {
-            match may.and_then(|()| self.written_out(&stmt, &all, kind)) {
-                Ok(passes) => return passes,
-                Err(because) => why = format!("; its passes are not written out: {because}"),
+        if (threads.is_some() && given.is_err()) || !elsewhere.is_empty() {
+            let other_unit = if stood_in && self.other_unit { Err(OTHER_UNIT) } else { may };
+            match other_unit.and_then(|()| self.written_out(&stmt, &all, kind)) {
+                Ok(passes) => {
+                    let notes = elsewhere.into_iter().map(|(what, help)| (span, what, help, So::Noted));
+                    self.found.extend(notes);
+                    return passes;
+                }
+                Err(because) => why = format!("; its moves are not written out: {because}"),
             }
         }
         let Given { words, setup, finishes: more, angle, needs } = match given {
@@ -272,15 +289,18 @@ impl Run<'_> {
                 return vec![stmt];
             }
         };
-        if self.other_unit && self.rests_on_length(kind, &setup) {
+        if self.other_unit && (stood_in || self.rests_on_length(kind, &setup)) {
             self.refuse(
                 span,
                 OTHER_UNIT,
                 "write the program in the unit that the profile of the machine gives",
             );
         }
-        self.found
-            .extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, So::Supposed(needs))));
+        self.found.extend(
+            needs
+                .into_iter()
+                .map(|(what, help, needs)| (span, what, format!("{help}{why}"), So::Supposed(needs))),
+        );
         // No source says by which way a pass in moves would run out: single passes do it as the cycle does.
         let runs_out =
             all.iter().any(|(role, value)| *role == Role::ThreadRunOut && value.constant() != Some(0.0));
@@ -303,21 +323,24 @@ impl Run<'_> {
             }
         }
         let site = crate::ir::SourceInfo { span, ..Default::default() };
-        let setup = (!setup.is_empty()).then(|| Stmt { kind: StmtKind::Nc(with(kind, setup)), site });
+        let setup = (!setup.is_empty()).then(|| Stmt { kind: StmtKind::Nc(block_before(kind, setup)), site });
         setup.into_iter().chain([stmt]).chain(passes.unwrap_or_default()).collect()
     }
 
-    /// True for a setting that is known to be another one on the target, or that a cycle before needs otherwise.
-    fn is_set_otherwise(&self, (.., needs): &Need) -> bool {
-        let Predicate::Setting(name, value) = needs else { return false };
+    /// What is said where moves take the place of a cycle for a setting that is known to be another one on the target, or that a cycle before
+    /// needs otherwise; nothing for another setting.
+    fn set_otherwise(&self, (.., needs): &Need) -> Option<Instead> {
+        let Predicate::Setting(name, value) = needs else { return None };
         let before = |(.., so): &(Span, String, String, So)| match so {
             So::Supposed(Predicate::Setting(other, before)) => other == name && before != value,
             _ => false,
         };
-        self.target.setting(name).is_some() || self.found.iter().any(before)
+        let stated = self.target.setting(name);
+        (stated.is_some() || self.found.iter().any(before))
+            .then(|| written((name, *value), stated, &self.target.dialect().title))
     }
 
-    /// The passes of a thread, in place of its cycle; why there are none.
+    /// The moves of a thread or a groove, in place of its cycle; why there are none.
     fn written_out(&mut self, stmt: &Stmt, values: &Values, kind: &Kind) -> Result<Vec<Stmt>, &'static str> {
         if self.in_steps {
             return Err("words of a place may be increments");
@@ -332,6 +355,9 @@ impl Run<'_> {
             Some("trailing.first") => Some(false),
             _ => None,
         };
+        if kind.cycle != Op::Threading {
+            return groove_passes::all(stmt, values, self.place, self.target);
+        }
         let passes = all(stmt, values, leading, self.place, self.target)?;
         let infeed = values.iter().find(|(role, _)| *role == Role::ThreadInfeed);
         if infeed.and_then(|(_, way)| way.constant()).is_some_and(|way| way % 2.0 == 0.0) {
@@ -370,10 +396,3 @@ const MOVES: &str =
     "a move in the block that sets what the next cycle takes: no source says what the control does with it";
 const SKIPPED: &str =
     "a block skip before the block that sets what the next cycle takes: whether it counts is not known here";
-
-/// The block that sets the values, in the order that people write them in.
-fn with(kind: &Kind, mut values: Values) -> Nc {
-    values.sort_by_key(|(role, _)| kind.roles.iter().position(|found| found == role));
-    let words = values.into_iter().map(|(role, value)| NcItem::Word(role, value));
-    Nc { items: std::iter::once(NcItem::Op(kind.setup)).chain(words).collect() }
-}

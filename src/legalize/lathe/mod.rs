@@ -11,6 +11,7 @@ mod cycle_values;
 pub mod cycle_words;
 mod drawn_lines;
 pub mod faces;
+mod groove_passes;
 pub mod hole_codes;
 pub mod hole_returns;
 pub mod holes;

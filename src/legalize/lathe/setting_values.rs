@@ -22,6 +22,8 @@ pub(super) enum So {
     Refused,
     /// It is refused, because the source's profile does not state this setting.
     Lacks(Arc<str>),
+    /// Moves are written in the place of the cycle.
+    Noted,
     /// The conversion supposes something.
     Supposed(Predicate),
 }
@@ -50,16 +52,42 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
                     }
                 }
             }
-            let code = if matches!(so, So::Supposed(_)) { Code::Conditional } else { Code::NoEquivalent };
+            let code = match so {
+                So::Supposed(_) => Code::Conditional,
+                So::Noted => Code::CycleWrittenOut,
+                So::Refused | So::Lacks(_) => Code::NoEquivalent,
+            };
             let finding = Diagnostic::new(code, span, what.as_str());
             let finding = if help.is_empty() { finding } else { finding.with_help(help) };
             match so {
                 So::Supposed(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
                 So::Lacks(setting) => context.add(index, finding.lacking(setting)),
+                So::Noted => context.add_once(index, &what, finding),
                 So::Refused => context.add(index, finding),
             }
         }
     }
+}
+
+/// What is said where moves take the place of a cycle, and what to do to keep the cycle.
+pub(super) type Instead = (String, String);
+
+/// The same, for a setting that the cycle needs with a value, and what the profile says of it.
+pub(super) fn written((name, value): (&str, f64), stated: Option<&str>, title: &str) -> Instead {
+    let (kind, number) = setting_named(name);
+    let now = stated.map_or("a cycle before needs another value".to_owned(), |stated| {
+        format!("the profile of the {title} says {stated}")
+    });
+    let what = format!(
+        "this cycle needs {kind} {number} to be {value}, and {now}: its moves are written out in its place"
+    );
+    let help = match stated {
+        Some(_) => format!(
+            "to keep the cycle, set it so on the machine, and write in its profile, under [{kind}s]: {number} = \"{value}\""
+        ),
+        None => "to keep the cycle, give both cycles the same value".to_owned(),
+    };
+    (what, help)
 }
 
 /// What is said of a second value: the first one, and the program that needs it, where that is another one.

@@ -2,6 +2,7 @@
 
 use crate::canon::{Op, Role};
 use crate::dialect::{CodeMeaning, Control};
+use crate::ir::{Expr, Nc, NcItem};
 use crate::legalize::features::Features;
 
 /// A cycle, the block that sets what it takes, and what that is.
@@ -62,19 +63,39 @@ pub fn takes(control: &Control, op: Op, role: Role) -> bool {
     row(control, op).is_some_and(|row| row.words.values().any(|found| *found == role))
 }
 
-/// The setting that counts where no block before a cycle writes a word: its name, and its number if the profile says it. None if a
-/// block of the library writes such a word: that changes the setting, for the cycles of other programs and of later days too.
-pub fn stand_in<'c>(
-    control: &'c Control,
-    features: &Features,
-    op: Op,
-    role: Role,
-) -> Option<(&'c str, Option<f64>)> {
+/// The setting that counts where no block before a cycle writes a word: its name, and its number if the profile says it.
+pub fn stand_in(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f64>)> {
+    row_for(control, op, role).map(|row| (row.name.as_str(), stated(control, row)))
+}
+
+pub(super) fn row_for(control: &Control, op: Op, role: Role) -> Option<&crate::dialect::Setting> {
+    // In a cycle of one block what is left out of a thread is none.
+    let word = if super::thread_form::PARTS.contains(&role) { Role::ThreadForm } else { role };
+    let before = Kind::of_cycle(op).is_some_and(|kind| takes(control, kind.setup, word));
+    if !before && !matches!(role, Role::CutDepth | Role::CutRetract) {
+        return None;
+    }
     let wanted = |row: &&crate::dialect::Setting| row.otherwise == Some(role) && row.cycles.contains(&op);
-    let row = control.dialect().settings.iter().find(wanted)?;
-    let is_set = KINDS.iter().any(|kind| row.cycles.contains(&kind.cycle) && features.op(kind.setup));
-    let may = matches!(role, Role::CutDepth | Role::CutRetract) && !is_set;
-    may.then(|| (row.name.as_str(), stated(control, row)))
+    control.dialect().settings.iter().find(wanted)
+}
+
+/// True where such a setting counts and no block of the library may change it: a block that writes the word does, for the cycles of other
+/// programs and of later days too.
+pub fn stands_in(control: &Control, features: &Features, op: Op, role: Role) -> bool {
+    let word = if super::thread_form::PARTS.contains(&role) { Role::ThreadForm } else { role };
+    row_for(control, op, role).is_some_and(|row| {
+        let sets = |kind: &Kind| row.cycles.contains(&kind.cycle) && features.op(kind.setup);
+        !(features.role(word) && KINDS.iter().any(sets))
+    })
+}
+
+/// True where the blocks that set what two cycles take set one setting of the control.
+pub fn share(control: &Control, one: &Kind, other: &Kind) -> bool {
+    let both = |row: &crate::dialect::Setting| {
+        row.otherwise == Some(Role::CutRetract)
+            && [one, other].iter().all(|kind| row.cycles.contains(&kind.cycle))
+    };
+    one.setup == other.setup || control.dialect().settings.iter().any(both)
 }
 
 fn stated(control: &Control, row: &crate::dialect::Setting) -> Option<f64> {
@@ -99,4 +120,11 @@ pub fn setting(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f6
     };
     let row = control.dialect().settings.iter().find(gives)?;
     Some((&row.name, stated(control, row)))
+}
+
+/// The block that sets the values, in the order that people write them in.
+pub(super) fn block_before(kind: &Kind, mut values: Vec<(Role, Expr)>) -> Nc {
+    values.sort_by_key(|(role, _)| kind.roles.iter().position(|found| found == role));
+    let words = values.into_iter().map(|(role, value)| NcItem::Word(role, value));
+    Nc { items: std::iter::once(NcItem::Op(kind.setup)).chain(words).collect() }
 }

@@ -12,7 +12,7 @@ use super::zeros::{adds, sets_zero};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
+use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
@@ -301,8 +301,15 @@ fn to_places(nc: &mut Nc, from: Place) {
             role if role.is_step() => return None,
             _ => return Some(item.clone()),
         };
-        let to = ((from + value.constant()?) * 1e6).round() / 1e6;
-        Some(NcItem::Word(whole, Expr::Number(to)))
+        let to = match value.constant() {
+            Some(by) => Expr::Number(((from + by) * 1e6).round() / 1e6),
+            // A count of increments stands by itself.
+            None if matches!(value, Expr::Increments(_) | Expr::Negate(_)) || value.count().is_some() => {
+                return None;
+            }
+            None => Expr::binary(BinOp::Add, Expr::Number(from), value.clone()),
+        };
+        Some(NcItem::Word(whole, to))
     };
     if let Some(items) = nc.items.iter().map(place).collect() {
         nc.items = items;

@@ -2,7 +2,7 @@
 //!
 //! Law: a pass is a move to where the thread begins at its depth, the thread, and the way out and back, as the cycle makes it
 //! (docs/lathe.md, P5 to P8). Side conditions: the place where the cycle begins, the end, the height, the taper, the angle and the depths
-//! are known numbers, and the thread runs out nowhere. Error bound: half of the sixth decimal, or of the last that the target has a digit for. Counter-example: a start that a called program
+//! are known numbers, and the thread runs out nowhere, or as the single passes of the target do. Error bound: half of the sixth decimal, or of the last that the target has a digit for. Counter-example: a start that a called program
 //! leaves.
 
 use super::cycle_values::Values;
@@ -58,23 +58,26 @@ impl Thread {
         (self.angle / 2.0).to_radians().tan()
     }
 
-    /// A number with six decimals, or as many as the target has digits for.
-    fn rounded(&self, value: f64) -> f64 {
-        let whole = value.abs().max(1.0).log10().floor() as i32 + 1;
-        let decimals = self.digits.map_or(6, |digits| (digits as i32 - whole).clamp(0, 6));
-        let factor = 10f64.powi(decimals);
-        (value * factor).round() / factor
+    fn word(&self, role: Role, value: f64) -> NcItem {
+        NcItem::Word(role, Expr::Number(rounded(value, self.digits)))
     }
 
-    /// The moves of a pass.
-    fn moves(&self, (depth, far): Pass) -> [Nc; 4] {
-        let word = |role: Role, value: f64| NcItem::Word(role, Expr::Number(self.rounded(value)));
+    /// Where a pass begins along Z, where it ends along X, and its taper.
+    fn pass(&self, (depth, far): Pass) -> (f64, f64, f64) {
         let (from, end) = (self.from, self.end);
         // How much of the way to the root the place along Z stands for.
         let along = if far { 2.0 * self.height - depth } else { depth };
         let z = from.1 + (end.1 - from.1).signum() * along * self.slope();
         let x = end.0 - 2.0 * (end.0 - from.0).signum() * (self.height - depth);
-        let begin = x + 2.0 * self.taper * (end.1 - z) / (end.1 - from.1);
+        (z, x, self.taper * (end.1 - z) / (end.1 - from.1))
+    }
+
+    /// The moves of a pass.
+    fn moves(&self, pass: Pass) -> [Nc; 4] {
+        let word = |role: Role, value: f64| self.word(role, value);
+        let (from, end) = (self.from, self.end);
+        let (z, x, taper) = self.pass(pass);
+        let begin = x + 2.0 * taper;
         let mut thread = vec![NcItem::Op(Op::Thread), word(Role::X, x), word(Role::Z, end.1)];
         thread.extend(self.lead.map(|lead| word(Role::Lead, lead)));
         thread.extend(self.start.map(|start| word(Role::ThreadStart, start)));
@@ -87,27 +90,46 @@ impl Thread {
         moves.map(|items| Nc { items })
     }
 
-    /// So many single passes at full depth, from where the last pass of the cycle begins, and the way there and back.
-    fn singles(&self, count: usize) -> Vec<Nc> {
-        let word = |role: Role, value: f64| NcItem::Word(role, Expr::Number(self.rounded(value)));
-        let (from, end) = (self.from, self.end);
-        let z = from.1 + (end.1 - from.1).signum() * self.height * self.slope();
-        let taper = self.taper * (end.1 - z) / (end.1 - from.1);
-        let mut pass = vec![NcItem::Op(Op::ThreadingPass), word(Role::X, end.0), word(Role::Z, end.1)];
-        pass.extend((taper != 0.0).then(|| word(Role::Taper, taper)));
-        pass.extend(self.lead.map(|lead| word(Role::Lead, lead)));
-        pass.extend(self.start.map(|start| word(Role::ThreadStart, start)));
-        let to = |z: f64| vec![NcItem::Op(Op::Rapid), word(Role::Z, z)];
-        let all = std::iter::once(to(z)).chain(std::iter::repeat_n(pass, count)).chain([to(from.1)]);
-        all.map(|items| Nc { items }).collect()
+    /// Passes by the code of single ones, each from where it begins along Z, and the way there and back.
+    fn singles(&self, passes: impl Iterator<Item = Pass>) -> Vec<Nc> {
+        let to = |z: f64| vec![NcItem::Op(Op::Rapid), self.word(Role::Z, z)];
+        let mut out = Vec::new();
+        let mut stands = None;
+        for pass in passes {
+            let (z, x, taper) = self.pass(pass);
+            if stands != Some(z) {
+                out.push(to(z));
+                stands = Some(z);
+            }
+            let words = [self.word(Role::X, x), self.word(Role::Z, self.end.1)];
+            let mut pass = vec![NcItem::Op(Op::ThreadingPass)];
+            pass.extend(words);
+            pass.extend((taper != 0.0).then(|| self.word(Role::Taper, taper)));
+            pass.extend(self.lead.map(|lead| self.word(Role::Lead, lead)));
+            pass.extend(self.start.map(|start| self.word(Role::ThreadStart, start)));
+            out.push(pass);
+        }
+        out.push(to(self.from.1));
+        out.into_iter().map(|items| Nc { items }).collect()
     }
 
     /// The blocks of passes.
     fn stmts(&self, passes: impl Iterator<Item = Pass>, stmt: &Stmt) -> Vec<Stmt> {
-        let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
-        let moves = passes.flat_map(|pass| self.moves(pass));
-        moves.map(|nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() }).collect()
+        stmts(passes.flat_map(|pass| self.moves(pass)), stmt)
     }
+}
+
+/// A number with six decimals, or as many as there are digits for.
+pub(super) fn rounded(value: f64, digits: Option<u32>) -> f64 {
+    let whole = value.abs().max(1.0).log10().floor() as i32 + 1;
+    let decimals = digits.map_or(6, |digits| (digits as i32 - whole).clamp(0, 6));
+    let factor = 10f64.powi(decimals);
+    (value * factor).round() / factor
+}
+
+fn stmts(made: impl IntoIterator<Item = Nc>, stmt: &Stmt) -> Vec<Stmt> {
+    let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
+    made.into_iter().map(|nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() }).collect()
 }
 
 /// The blocks of so many finishing passes after a thread's cycle; none where a number of it is not known.
@@ -131,19 +153,24 @@ pub(super) fn runs_out(
     target: &Control,
 ) -> Option<Vec<Stmt>> {
     let nc = stmt.kind.nc().filter(|_| stmt.site.skip.is_none())?;
-    let has = |role: Role| takes(target, Op::ThreadingPass, role) || nc.word(role).is_none();
-    let by_setting = setting(target, Op::Threading, Role::ThreadRunOut).is_some();
-    if !by_setting
-        || !takes(target, Op::ThreadingPass, Role::Lead)
-        || !has(Role::Taper)
-        || !has(Role::ThreadStart)
-    {
-        return None;
-    }
+    setting(target, Op::Threading, Role::ThreadRunOut).filter(|_| has_singles(nc, target))?;
     let thread = Thread::of(nc, angle, from, target)?;
-    let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
-    let made = thread.singles(count).into_iter();
-    Some(made.map(|nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() }).collect())
+    Some(stmts(thread.singles(std::iter::repeat_n((thread.height, false), count)), stmt))
+}
+
+/// True where single passes of the target take the words of a thread.
+fn has_singles(nc: &Nc, target: &Control) -> bool {
+    let has = |role: Role| takes(target, Op::ThreadingPass, role) || nc.word(role).is_none();
+    takes(target, Op::ThreadingPass, Role::Lead) && has(Role::Taper) && has(Role::ThreadStart)
+}
+
+/// True where single passes of the target are known to run out so many leads: by a setting that the cycle runs out by too.
+fn runs_out_by(run_out: f64, nc: &Nc, target: &Control) -> bool {
+    let gives = |row: &crate::dialect::Setting| row.gives == Some(Role::ThreadRunOut);
+    let set = setting(target, Op::Threading, Role::ThreadRunOut)
+        .filter(|_| target.dialect().settings.iter().any(gives));
+    let leads = set.and_then(|(_, leads)| leads);
+    leads.is_some_and(|leads| (leads - run_out).abs() < 1e-9) && has_singles(nc, target)
 }
 
 /// The blocks of a thread, in place of its cycle: `leading` says whether the passes of a thread that is cut on both flanks begin with
@@ -163,7 +190,9 @@ pub(super) fn all(
         Some((_, value)) => value.constant().ok_or(UNKNOWN),
         None => Ok(0.0),
     };
-    if number(Role::ThreadRunOut)? != 0.0 {
+    // Moves do not run out, and single passes by what the target is set to.
+    let run_out = number(Role::ThreadRunOut)?;
+    if run_out != 0.0 && !runs_out_by(run_out, nc, target) {
         return Err(RUN_OUT);
     }
     let thread = Thread::of(nc, number(Role::ThreadAngle)?, from, target).ok_or(UNKNOWN)?;
@@ -182,7 +211,11 @@ pub(super) fn all(
     let roughing =
         depths.into_iter().enumerate().map(|(at, depth)| (depth, both && (at % 2 == 1) == leading));
     let finishing = std::iter::repeat_n((thread.height, false), number(Role::ThreadFinishes)? as usize);
-    let mut made = thread.stmts(roughing.chain(finishing), stmt);
+    let passes = roughing.chain(finishing);
+    let mut made = match run_out == 0.0 {
+        true => thread.stmts(passes, stmt),
+        false => stmts(thread.singles(passes), stmt),
+    };
     if let Some(head) = made.first_mut() {
         head.site = stmt.site.clone();
     }
@@ -249,10 +282,10 @@ pub(super) fn says_how(next: &[Stmt], ends: bool) -> bool {
 /// More passes are not written out.
 const MOST: usize = 200;
 
-const SKIPPED: &str = "a switch may skip its block";
-const BESIDE: &str = "another code or word stands in its block";
-const RUN_OUT: &str = "it runs out at its end, and no source says by which way";
-const UNKNOWN: &str = "where it begins, or a number of it, is not known here";
+pub(super) const SKIPPED: &str = "a switch may skip its block";
+pub(super) const BESIDE: &str = "another code or word stands in its block";
+const RUN_OUT: &str = "it runs out at its end, no source says by which way, and single passes of the target are not known to run out so";
+pub(super) const UNKNOWN: &str = "where it begins, or a number of it, is not known here";
 const FLANKS: &str = "in which order its flanks are cut is not known";
 const DEPTHS: &str = "its depths make no pass, or more than 200";
 

@@ -2,7 +2,8 @@
 //!
 //! Such a pass takes nothing off. Between the two the tool goes out along X, and along Z beside the part to where it began. Whether it goes in again along
 //! both axes at once, or along Z first, no source says of a cycle of many passes (docs/lathe.md P8), and where a conversion writes such passes by single ones
-//! it is Z first. So of that way only its first move counts, and moves along Z that follow one another are one.
+//! it is Z first. So of that way only its first move counts, and moves along Z that follow one another are one. A thread that runs out may be written by
+//! single ones from its first pass on: of each of its passes it counts where it begins, and not whether the tool goes there along both axes at once.
 
 use super::observe::{Act, What};
 use super::paths::apart;
@@ -22,14 +23,20 @@ pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     let mut last: Option<(Position, Position, usize)> = None;
     for act in acts {
         match (&*act.what, last) {
-            (EventKind::Thread { from, to, .. }, before) => {
+            (EventKind::Thread { from, to, chamfer, .. }, before) => {
                 let (from, to) = (*from, *to);
-                let same =
-                    before.is_some_and(|(start, end, _)| apart(&start, &from).max(apart(&end, &to)) <= NEAR);
-                if let Some((_, end, after)) = before.filter(|_| same)
-                    && beside(out.get(after..).unwrap_or_default(), end, from)
-                {
-                    out.truncate(after + 1);
+                let runs_out = chamfer.is_some_and(|length| length > 0.0);
+                let way = before
+                    .filter(|(_, end, after)| beside(out.get(*after..).unwrap_or_default(), *end, from));
+                let same = |(start, end, _)| apart(&start, &from).max(apart(&end, &to)) <= NEAR;
+                match way {
+                    Some(before) if same(before) => out.truncate(before.2 + 1),
+                    Some((.., after)) if runs_out => at_once(&mut out, after + 1, from),
+                    _ if runs_out && goes_in(&out, from) => {
+                        let first = out.len() - 2;
+                        at_once(&mut out, first, from);
+                    }
+                    _ => {}
                 }
                 out.push(act);
                 last = Some((from, to, out.len()));
@@ -48,6 +55,30 @@ pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
         }
     }
     out
+}
+
+/// Makes one move of the rapid moves from an act on, to where a pass begins.
+fn at_once(out: &mut Vec<Act<'_>>, first: usize, start: Position) {
+    let Some(EventKind::Rapid { from, .. }) = out.get(first).map(|act| &*act.what) else { return };
+    let whole = EventKind::Rapid { from: *from, to: start };
+    out.truncate(first + 1);
+    if let Some(act) = out.last_mut() {
+        act.what = What::other(whole);
+    }
+}
+
+/// True where the tool comes to the start of a pass along Z, and then along X.
+fn goes_in(out: &[Act<'_>], start: Position) -> bool {
+    let [.., before, last] = out else { return false };
+    match (&*before.what, &*last.what) {
+        (EventKind::Rapid { from, to: corner }, EventKind::Rapid { from: there, to }) => {
+            let along = |a: &Position, b: &Position, axis: usize| moves_along(a, b) == Some(axis);
+            along(from, corner, Z)
+                && along(there, to, X)
+                && apart(corner, there).max(apart(to, &start)) <= NEAR
+        }
+        _ => false,
+    }
 }
 
 /// True for moves out along X from the end of a pass, along Z, and in to the start of the next one.

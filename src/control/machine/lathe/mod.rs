@@ -118,6 +118,7 @@ pub(super) fn setup(machine: &mut Machine, op: Op, command: &Command) -> Result<
     }
     let unit = machine.unit();
     let length = |role| command.word(role).map(|value| value * unit);
+    let one_pair = machine.rules.turning.two_blocks;
     let lathe = &mut machine.lathe;
     let cut = |kept: Cut| Cut {
         depth: length(Role::CutDepth).or(kept.depth),
@@ -141,6 +142,16 @@ pub(super) fn setup(machine: &mut Machine, op: Op, command: &Command) -> Result<
                 least: length(Role::ThreadLeast).or(lathe.thread.least),
                 allowance: length(Role::ThreadAllowance).or(lathe.thread.allowance),
             };
+        }
+    }
+    // On a control of which such blocks write parameters, two cycles have one pair of them, or one (R1).
+    if one_pair {
+        match op {
+            Op::TurningSetup => lathe.facing = lathe.turning,
+            Op::FacingSetup => lathe.turning = lathe.facing,
+            Op::FaceGrooveSetup => lathe.groove_retract = lathe.face_retract,
+            Op::GrooveSetup => lathe.face_retract = lathe.groove_retract,
+            _ => {}
         }
     }
     Ok(())

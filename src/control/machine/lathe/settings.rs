@@ -40,6 +40,8 @@ pub struct Turning {
     pub run_out_angle: Option<f64>,
     /// Finishing passes of threads.
     pub thread_finishes: Option<f64>,
+    /// The angle between the flanks of threads.
+    pub thread_angle: Option<f64>,
     /// The angles that threads of many passes may have, degrees; none if every angle may stand (P3).
     pub thread_angles: Option<Vec<f64>>,
     /// True where the machine's profile names a C axis.
@@ -103,6 +105,7 @@ impl Turning {
             run_out: given(Role::ThreadRunOut, &[Op::Threading]),
             run_out_angle: told("thread.run.out.angle"),
             thread_finishes: given(Role::ThreadFinishes, &[Op::Threading]),
+            thread_angle: given(Role::ThreadAngle, &[Op::Threading]),
             thread_angles: answer(Question::ThreadAngles)
                 .filter(|list| !["any", "unknown"].contains(list))
                 .map(|list| list.split('.').filter_map(|angle| angle.parse().ok()).collect()),

@@ -136,8 +136,8 @@ pub fn many(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resu
     let lead = machine.feed;
     let chamfer = match form {
         true => {
-            let digits = machine.lathe.thread.digits.unwrap_or(0.0);
-            Some((((digits / 100.0).floor() % 100.0) / 10.0 * lead, 45.0))
+            let [_, leads, _] = form_of(machine)?;
+            Some((leads * lead, 45.0))
         }
         false if stands_in && machine.rules.turning.run_out.is_none() => return Err(unset("run-out")),
         false => machine.set_chamfer(lead, trace),
@@ -212,17 +212,30 @@ const MOST: usize = 10_000;
 fn by_two_blocks(machine: &Machine, command: &Command) -> Result<Screw, Stop> {
     let (unit, form, turning) = (machine.unit(), machine.lathe.thread, &machine.rules.turning);
     let length = |role| command.word(role).map_or(0.0, |value| value * unit);
-    let digits = form.digits.ok_or_else(|| unset("passes and angle"))?;
+    let [finishes, _, angle] = form_of(machine)?;
     let least = form.least.or(turning.thread_least).ok_or_else(|| unset("least depth"))?;
     let allowance =
         form.allowance.or(turning.thread_allowance).ok_or_else(|| unset("finishing allowance"))?;
     let (height, first) = (length(Role::ThreadHeight), length(Role::ThreadFirst));
-    let angle = digits % 100.0;
-    let finishes = (digits / 10_000.0).floor();
     check_values(turning, angle, (height, first, least), finishes)?;
     let taper = length(Role::Taper);
     let finishes = finishes as u32;
     Ok(Screw { height, first, least, allowance, finishes, angle, taper, even: false, both: None })
+}
+
+/// Finishing passes, run-out in leads and angle: the six digits of the first block, else parameters.
+fn form_of(machine: &Machine) -> Result<[f64; 3], Stop> {
+    let turning = &machine.rules.turning;
+    match machine.lathe.thread.digits {
+        Some(digits) => {
+            Ok([(digits / 10_000.0).floor(), (digits / 100.0).floor() % 100.0 / 10.0, digits % 100.0])
+        }
+        None => {
+            let finishes = turning.thread_finishes.ok_or_else(|| unset("number of finishing passes"))?;
+            let leads = turning.run_out.ok_or_else(|| unset("run-out"))?;
+            Ok([finishes, leads, turning.thread_angle.ok_or_else(|| unset("angle"))?])
+        }
+    }
 }
 
 fn unset(what: &str) -> Stop {

@@ -1,7 +1,7 @@
 //! What a letter means beside the codes of its block and the motion code in force.
 
 use crate::canon::{Group, Op, Role};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::{Axis, CodeMeaning, Machine, Question, Side};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::codes::CodeId;
@@ -212,7 +212,9 @@ impl<'a> Lowering<'a> {
                 "name it in the [[site]] of {} in the machine's profile: words = {{ {letter} = \"{letter}\" }}",
                 row.code
             );
-            return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+            let told = Diagnostic::new(Code::NotUnderstood, span, message).with_help(help);
+            let (code, name) = (row.code.as_str().into(), letter.to_string().into());
+            return self.findings.add(told.asking_for(Asks::Word { target: false, code, letter, name }));
         }
         // A code that acts in its block alone is the one that takes words of its own.
         let own = codes.iter().find(|(_, row)| row.op.group() == Group::OneShot || row.op.is_cycle());
@@ -232,13 +234,13 @@ impl<'a> Lowering<'a> {
         }
         let told = Diagnostic::new(Code::NotUnderstood, span, message);
         self.findings.add(match self.spindle_by_word(word, codes) {
-            Some(help) => told.with_help(help),
+            Some((help, asks)) => told.with_help(help).asking_for(asks),
             None => told,
         });
     }
 
     /// What to do where a builder's word beside a code of the spindle says which spindle it is: `M3 P11`.
-    fn spindle_by_word(&self, word: &Word, codes: &BlockCodes<'a>) -> Option<String> {
+    fn spindle_by_word(&self, word: &Word, codes: &BlockCodes<'a>) -> Option<(String, Asks)> {
         let spindle = |op: Op| matches!(op, Op::SpindleCw | Op::SpindleCcw | Op::SpindleStop);
         let (_, row) = codes.iter().find(|(_, row)| spindle(row.op))?;
         let ExprKind::Number(number) = &word.value.as_ref()?.kind else { return None };
@@ -246,11 +248,12 @@ impl<'a> Lowering<'a> {
             return None;
         }
         let code = format!("{} P{}", row.code, number.value);
-        Some(format!(
+        let help = format!(
             "if P says which spindle it is, name the code with it in the machine's profile: [[site]] with code = \"{code}\", op = \"{}\", and a \
              text, where it is the one that the target's {} turns; else with a name",
             row.op, row.code
-        ))
+        );
+        Some((help, Asks::Code { code: code.into(), op: Some(row.op) }))
     }
 
     /// Signs of a lathe program that a mill's table would read as something else: `G50 S3000`,
