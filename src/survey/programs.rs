@@ -54,7 +54,9 @@ pub(super) fn asked_in(text: &str, survey: &Survey<'_>) -> String {
         }
         Some(place) => {
             // A line in the list is a comment, whatever stands before it.
-            spliced(text, place.start + 1, &format!("\n{ASKS} {list}, # {about}\n"))
+            let at = place.start + 1;
+            let end = if text.get(at..).is_some_and(|rest| rest.starts_with('\n')) { "" } else { "\n" };
+            spliced(text, at, &format!("\n{ASKS} {list}, # {about}{end}"))
         }
     }
 }

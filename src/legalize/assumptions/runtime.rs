@@ -183,8 +183,10 @@ impl Follow for Standing {
         block.stmts.iter().for_each(|stmt| *stands = self.after(&stmt.kind, *stands));
     }
 
-    // Of a program that is not in the library nothing is known: it is taken to leave the spindle as it was.
-    fn lose(&self, _: &mut bool) {}
+    // Of a program that is not in the library nothing is known: one that probes stops the spindle.
+    fn lose(&self, stands: &mut bool) {
+        *stands = true;
+    }
 }
 
 impl Standing {

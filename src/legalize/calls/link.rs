@@ -112,7 +112,7 @@ fn offset_in_force(index: usize, span: Span, context: &mut Context<'_>) {
     let answers = (answer(context.source), answer(context.target));
     if matches!(&answers, (Some(ours), Some(theirs)) if ours != theirs) {
         let what = "a program that stands on the target may write the work offset in force, and the two machines differ in \
-                    whether that counts at once ('offset.active.immediately'): select the offset again behind the call";
+                    whether that counts at once ('offset.active.immediately'): select the offset again after the call";
         context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
     }
 }

@@ -1,7 +1,7 @@
 //! Programs that stand in the target's machine by its profile, and are no part of the library.
 //!
 //! What they do nobody knows here; that it is the same as on the source, with the same arguments and variables, the
-//! profile says. So a call of one is no question. All that is known before it is lost behind it, as behind every call
+//! profile says. So a call of one is no question. All that is known before it is lost after it, as after every call
 //! that leaves the library.
 
 use crate::ir::analysis::calls_of;

@@ -59,7 +59,7 @@ pub(super) const LATHE: &[Pass] = &[
     .when(bare_starts::concerns),
     Pass::edits(
         "contour-ends",
-        "contours end before a last block that the target's cycles do not take; their finishing is moves",
+        "contours end before a last block that the target does not take; finishing is moves",
         contour_ends::run,
     )
     .when(contour_ends::concerns)

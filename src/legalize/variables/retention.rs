@@ -55,11 +55,11 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
         let span = module.programs[index].site.span;
         let is_at_entry = upward_exposed.at_entry_of(index);
         let is_before = before.as_ref().map(|before| before.at_entry_of(index));
-        for (kept, behind) in [(true, false), (false, false), (true, true), (false, true)] {
+        for (kept, after) in [(true, false), (false, false), (true, true), (false, true)] {
             let shown = lives.iter().enumerate();
-            let is_behind = |var: Var| is_before.as_ref().is_some_and(|is_before| !is_before(var));
+            let is_after = |var: Var| is_before.as_ref().is_some_and(|is_before| !is_before(var));
             let shown =
-                shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_behind(*var) == behind);
+                shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_after(*var) == after);
             let shown: Vec<usize> = shown.map(|(at, _)| at).collect();
             if shown.is_empty() {
                 continue;
@@ -69,8 +69,8 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
                 told(&shown.iter().map(|at| &lives[*at].2).collect::<Vec<_>>(), kept).into()
             });
             let finding = Diagnostic::new(Code::OtherRetention, span, what.clone());
-            // Behind a program that stands in the machine it mostly is what that one left.
-            context.add(index, if behind { finding.asked_once() } else { finding });
+            // After a program that stands in the machine it mostly is what that one left.
+            context.add(index, if after { finding.asked_once() } else { finding });
         }
     }
 }
