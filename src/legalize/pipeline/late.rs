@@ -111,7 +111,7 @@ pub(super) const REGISTERS: &[Pass] = &[
     .needs(&["registers"]),
     Pass::reports(
         "standing",
-        "reports variables and registers that programs which stand in the machine may know otherwise",
+        "reports variables and registers that programs in the machine may know otherwise",
         standing::run,
     )
     .when(|c, context| c.has(Feature::Call) && !context.target.standing().is_empty())

@@ -44,7 +44,8 @@ pub fn is_settled(side: &Side<'_>, run: &Run, is_free: &dyn Fn(&str) -> bool) ->
     if run.events.iter().any(|event| open(&event.what)) {
         return false;
     }
-    let mut rests = Rests { control: side.control, on: BTreeMap::new(), ways: BTreeSet::new() };
+    let mut rests =
+        Rests { control: side.control, on: BTreeMap::new(), ways: BTreeSet::new(), gives_arguments: false };
     let programs: BTreeSet<ProgramRef> =
         run.programs.iter().flat_map(|ran| side.links().of_run(ran)).copied().collect();
     // Another run may go on where the control stopped this one, but not where a statement alone makes it stop.
@@ -73,6 +74,8 @@ struct Rests<'c> {
     on: BTreeMap<Node, BTreeSet<Node>>,
     /// What the way of a run rests on.
     ways: BTreeSet<Node>,
+    /// True if a code gives words to locals.
+    gives_arguments: bool,
 }
 
 impl Rests<'_> {
@@ -147,7 +150,11 @@ impl Rests<'_> {
         }
         if let ('G' | 'M', ExprKind::Number(number)) = (word.letter, &value.kind) {
             let code = self.control.code(word.letter, number.value, &[]);
-            let is_told = code.is_some() || self.control.alias(word.letter, number.value).is_some();
+            let alias = self.control.alias(word.letter, number.value).is_some();
+            let plain =
+                |op: Op| !matches!(op, Op::CallMacro | Op::CallModal | Op::CallModalEach | Op::CallCycle);
+            self.gives_arguments |= alias || !code.is_some_and(|row| plain(row.op));
+            let is_told = code.is_some() || alias;
             if !is_told || code.is_some_and(|row| row.op == Op::JumpInputOff) {
                 self.ways.insert(Node::Outside);
             }
@@ -232,7 +239,7 @@ impl Rests<'_> {
                     }
                     open.push(Node::Any);
                     let class = class_of(self.control, name);
-                    if class.is_none_or(|class| class.class == "local") {
+                    if self.gives_arguments && class.is_none_or(|class| class.class == "local") {
                         open.push(Node::Arguments);
                     }
                 }

@@ -93,6 +93,10 @@ fn what_comes_from_outside_sends_runs_elsewhere() {
     // L is a count, and no subroutine: what the called blocks write is written.
     assert!(settled_on("haas", "M97P7L2\nGOTO5\nN7#500=2\nIF[#500GT1]GOTO8\nN8M99"));
     assert!(!settled_on("haas", "M97P7L2\nGOTO5\nN7IF[#500GT1]GOTO8\nN8M99"));
+    // Words are arguments only where a call takes them.
+    assert!(settled_on("haas", "#1=5\nG0X#500\nIF[#1GT3]GOTO5"));
+    assert!(!settled_on("haas", "G65P2A#500"));
+    assert!(!settled_on("haas", "#501=65\n#1=5\nG#501P2A#500\nIF[#1GT3]GOTO5"));
 }
 
 /// A macro that checks its arguments, and a caller that gives it right ones.
