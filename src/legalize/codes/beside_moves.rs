@@ -109,7 +109,7 @@ fn may_move(nc: &Nc) -> bool {
 }
 
 fn cuts(op: Op) -> bool {
-    op.is_cycle() || matches!(op, Op::CycleHere | Op::Probe | Op::ProbeOther)
+    op.is_cycle() || op.is_lathe_cycle() || matches!(op, Op::CycleHere | Op::Probe | Op::ProbeOther)
 }
 
 fn waits(op: Op) -> bool {

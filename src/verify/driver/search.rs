@@ -56,12 +56,7 @@ impl Verifier<'_, '_> {
             Predicate::Loaded(tool) => Some(tool),
             _ => None,
         });
-        let settings: BTreeMap<String, f64> = assumed()
-            .filter_map(|one| match &one.predicate {
-                Predicate::Setting(name, value) => Some((name.to_string(), *value)),
-                _ => None,
-            })
-            .collect();
+        let settings = self.settings();
         let as_stated = self.job.as_stated(self.program);
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
@@ -178,6 +173,20 @@ impl Verifier<'_, '_> {
     /// True where neither side has ways left.
     pub(super) fn went_every_way(&self) -> bool {
         self.coverage.is_complete() && self.target_coverage.is_complete()
+    }
+
+    /// What the target's settings are supposed to be: while this program runs, and so what it calls.
+    fn settings(&self) -> BTreeMap<String, f64> {
+        let called = self.job.source.links().called_from(self.program, |_| true);
+        let programs = std::iter::once(&self.program).chain(&called);
+        let assumed = programs.filter_map(|program| self.job.assumptions.get(program)).flatten();
+        let mut settings = BTreeMap::new();
+        for one in assumed {
+            if let Predicate::Setting(name, value) = &one.predicate {
+                settings.entry(name.to_string()).or_insert(*value);
+            }
+        }
+        settings
     }
 
     /// A run of the source; a long way to its end is tried once.
