@@ -83,7 +83,7 @@ pub struct OutsideCall {
 }
 
 impl OutsideCall {
-    /// The name on the source of what is called.
+    /// The name that the called program has on the source.
     pub fn name(&self) -> String {
         ProgramName::Number(self.program).short().into_owned()
     }

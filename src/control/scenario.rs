@@ -57,7 +57,7 @@ pub struct Scenario {
     /// Settings of the control that are another than its profile says, by name: lengths in the unit of the control.
     #[serde(skip)]
     pub settings: BTreeMap<String, f64>,
-    /// Seed of what programs that stand in the machine leave behind; 0 if they leave all as it was.
+    /// Seed of what programs that stand in the machine change; 0 if they change nothing.
     #[serde(skip)]
     pub outside: u64,
     /// True where they leave other modes too.

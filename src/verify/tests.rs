@@ -69,16 +69,17 @@ fn supposing(
     for (program, assumption) in supposed.iter().cloned() {
         assumptions.entry(ProgramRef { file: 0, program }).or_default().push(assumption);
     }
-    let effort = Effort::default();
-    let job = Job {
-        source: &source,
-        target: &target,
-        names: &names,
-        assumptions: &assumptions,
-        effort,
-        spent: &Spent::default(),
-    };
-    verify(&job, &[]).programs
+    verified([&source, &target], &names, &assumptions)
+}
+
+/// What is found of two sides, with the usual effort.
+fn verified(
+    [source, target]: [&Side<'_>; 2],
+    names: &SymbolMap,
+    assumptions: &Assumptions,
+) -> Vec<ProgramCertificate> {
+    let (effort, spent) = (Effort::default(), Spent::default());
+    verify(&Job { source, target, names, assumptions, effort, spent: &spent }, &[]).programs
 }
 
 /// Within one dialect.

@@ -1,7 +1,7 @@
 //! The way of a rotary axis whose words have the sign of their way.
 //!
-//! Under G90 the number is a place within one turn, and its sign says how the axis comes to it: without a sign the positive way,
-//! with a minus the negative one. An axis that is there already stays.
+//! Under G90 the number is a place within one turn. The sign is the way there: with a minus the negative way, else the positive one.
+//! An axis that is there already stays.
 
 use super::Machine;
 use super::command::is_rotary;

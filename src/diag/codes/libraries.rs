@@ -34,7 +34,7 @@ Look at the named program first. Once it converts, so do its callers."
     "0607" StandsThere Note "calls a program that stands on the target"
 "The program calls one that is not among the converted files and that the target's profile names under `programs`: it stands in the machine under that number, or under the one that the profile gives it, and does the same as on the source with the same arguments and variables. It is said once for the library.
 
-Nothing is known of what such a program leaves behind. Runs on the emulated controls compare with what it is called, and go on with variables and a position that are drawn."
+What such a program changes is not known. Runs on the emulated controls compare what it is given, and go on with variables and a position drawn at random, the same on both sides."
 
     "0610" LockConflict Error "an earlier conversion has this register"
 "`macroglot.lock` in the output folder keeps registers for programs that were converted before and are not part of this run. A program of this run needs one of them for itself: its variable has that number on both controls, or variables with computed numbers need a row of registers.

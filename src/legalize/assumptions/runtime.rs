@@ -7,6 +7,7 @@
 use crate::canon::{Func, Group, Op, Pause, Role, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Side, matters};
+use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::analysis::{Assigned, Constant};
 use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, StmtKind, TermKind};
@@ -52,8 +53,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let assigned = Assigned::new(program, &summaries);
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
-            let mut stands =
-                stood.as_ref().and_then(|stood| stood.at(index, id)).is_some_and(|stands| *stands);
+            let mut spindle =
+                stood.as_ref().and_then(|stood| stood.at(index, id)).copied().unwrap_or_default();
             for (at, stmt) in block.stmts.iter().enumerate() {
                 let span = stmt.site.span;
                 let zero = |e: &Expr| may_be_zero(e, &assigned, (id, at));
@@ -61,7 +62,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 if let Some(place) = stmt.kind.target() {
                     value(&place.read(), index, span, &zero, context);
                 }
-                stands = standing.after(&stmt.kind, stands);
+                spindle = standing.after(&stmt.kind, spindle);
                 if let StmtKind::Nc(nc) = &stmt.kind {
                     if let Some(state) = &state
                         && mixes(nc, state)
@@ -70,12 +71,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     }
                     arc(nc, index, span, context);
                     if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
-                        && turned_by_cycle(nc, stands, state)
+                        && turned_by_cycle(nc, spindle.stands, state)
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
-                        stands = false;
+                        spindle.stands = false;
                     } else if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
-                        && taps_unseen(nc, state)
+                        && (taps_unseen(nc, state) || turned_by_cycle(nc, spindle.lost, state))
                     {
                         context.add_once(
                             index,
@@ -164,7 +165,23 @@ fn stored_place(context: &mut Context<'_>, index: usize, span: Span) {
 const STANDS: &str = "the spindle stands here, and the source's cycle starts it by itself; the target's does not: write M3 or \
      M4 before the cycle";
 
-/// Whether a tool change, an orientation or a stop has ended the turning of the spindle on some way to a place.
+/// What is known of the spindle at a place, on some way to it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Spindle {
+    /// A tool change, an orientation or a stop has ended its turning.
+    stands: bool,
+    /// A program that is not in the library may have stopped it: one that probes does.
+    lost: bool,
+}
+
+impl Lattice for Spindle {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined = Self { stands: self.stands || other.stands, lost: self.lost || other.lost };
+        std::mem::replace(self, joined) != joined
+    }
+}
+
+/// Follows that over a library.
 struct Standing {
     /// True where a stop of the program ends it.
     by_stop: bool,
@@ -173,19 +190,18 @@ struct Standing {
 }
 
 impl Follow for Standing {
-    type Known = bool;
+    type Known = Spindle;
 
-    fn outside(&self, _: usize) -> bool {
-        false
+    fn outside(&self, _: usize) -> Spindle {
+        Spindle::default()
     }
 
-    fn stmts(&self, _: (usize, BlockId), block: &Block, stands: &mut bool) {
-        block.stmts.iter().for_each(|stmt| *stands = self.after(&stmt.kind, *stands));
+    fn stmts(&self, _: (usize, BlockId), block: &Block, spindle: &mut Spindle) {
+        block.stmts.iter().for_each(|stmt| *spindle = self.after(&stmt.kind, *spindle));
     }
 
-    // Of a program that is not in the library nothing is known: one that probes stops the spindle.
-    fn lose(&self, stands: &mut bool) {
-        *stands = true;
+    fn lose(&self, spindle: &mut Spindle) {
+        spindle.lost = true;
     }
 }
 
@@ -195,22 +211,22 @@ impl Standing {
         Self { by_stop: ends(Pause::Stop), by_message: ends(Pause::Message) }
     }
 
-    /// True where the spindle was brought to a stand, and nothing has said since what it does.
-    fn after(&self, kind: &StmtKind, stands: bool) -> bool {
+    /// Takes a statement, which may say what the spindle does.
+    fn after(&self, kind: &StmtKind, Spindle { stands, lost }: Spindle) -> Spindle {
         match kind {
             StmtKind::Nc(nc) => {
                 let says = nc.ops().any(|op| op.group() == Group::Spindle && op != Op::SpindleOrient);
                 let pauses = nc.has(Op::Stop) || nc.has(Op::OptionalStop);
                 let ends = nc.has(Op::ToolChange) || nc.has(Op::SpindleOrient) || self.by_stop && pauses;
-                (stands || ends) && !says
+                Spindle { stands: (stands || ends) && !says, lost: lost && !says }
             }
-            StmtKind::StopMessage { .. } => stands || self.by_message,
-            _ => stands,
+            StmtKind::StopMessage { .. } => Spindle { stands: stands || self.by_message, lost },
+            _ => Spindle { stands, lost },
         }
     }
 }
 
-const MAY_STAND: &str = "it is not known here that the spindle turns, and the source's tap starts it by itself; the target's does not: \
+const MAY_STAND: &str = "it is not known here that the spindle turns, and the source's cycle starts it by itself; the target's does not: \
      write M3 or M4 before it";
 
 /// True for a target whose taps are rigid, by a code of their own that turns the spindle, or all of them as by that code. On a lathe the

@@ -62,7 +62,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     changed
 }
 
-const WRITTEN: &str = "the last block of this contour is no stock, and the target's cycles do not take it: the contour ends before it, and this finishing is written out as moves";
+const WRITTEN: &str = "the last block of this contour cuts nothing, and the target's cycles stop at it: the contour ends before it, and this finishing is written out as moves";
 
 /// A cycle that reads a contour.
 struct Reader {

@@ -7,7 +7,7 @@
 
 use super::cycle_values::Values;
 use super::place::Place;
-use super::thread_passes::{BESIDE, SKIPPED, UNKNOWN, rounded};
+use super::thread_passes::{UNKNOWN, alone, rounded};
 use crate::canon::{Op, Role};
 use crate::dialect::Control;
 use crate::ir::{Expr, Nc, NcItem, SourceInfo, Stmt, StmtKind};
@@ -134,10 +134,7 @@ pub(super) fn all(
     from: Place,
     target: &Control,
 ) -> Result<Vec<Stmt>, &'static str> {
-    let nc = stmt.kind.nc().filter(|_| stmt.site.skip.is_none()).ok_or(SKIPPED)?;
-    if nc.items.iter().any(|item| !is_of_groove(item)) {
-        return Err(BESIDE);
-    }
+    let nc = alone(stmt, is_of_groove)?;
     let digits = target.numbers().digits;
     let moves = Groove::of(nc, values, from)?.moves()?;
     // Feed and speed count from the first move on, which is one at the feed.
@@ -184,4 +181,4 @@ const MOST: usize = 500;
 const SAME: f64 = 1e-9;
 
 const LONG: &str = "they are more than 500 blocks";
-const ALARM: &str = "a peck, a step or a way back of it is none";
+const ALARM: &str = "a peck, a step or a way back is negative, or a step is 0";

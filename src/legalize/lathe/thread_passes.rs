@@ -173,6 +173,12 @@ fn runs_out_by(run_out: f64, nc: &Nc, target: &Control) -> bool {
     leads.is_some_and(|leads| (leads - run_out).abs() < 1e-9) && has_singles(nc, target)
 }
 
+/// The block of a cycle that may be written out: it is not skipped, and has nothing beside what is of the cycle.
+pub(super) fn alone(stmt: &Stmt, is_of: fn(&NcItem) -> bool) -> Result<&Nc, &'static str> {
+    let nc = stmt.kind.nc().filter(|_| stmt.site.skip.is_none()).ok_or(SKIPPED)?;
+    if nc.items.iter().all(is_of) { Ok(nc) } else { Err(BESIDE) }
+}
+
 /// The blocks of a thread, in place of its cycle: `leading` says whether the passes of a thread that is cut on both flanks begin with
 /// the one that the tool comes to first. If there are none: why.
 pub(super) fn all(
@@ -182,10 +188,7 @@ pub(super) fn all(
     from: Place,
     target: &Control,
 ) -> Result<Vec<Stmt>, &'static str> {
-    let nc = stmt.kind.nc().filter(|_| stmt.site.skip.is_none()).ok_or(SKIPPED)?;
-    if nc.items.iter().any(|item| !is_of_thread(item)) {
-        return Err(BESIDE);
-    }
+    let nc = alone(stmt, is_of_thread)?;
     let number = |role: Role| match values.iter().find(|(found, _)| *found == role) {
         Some((_, value)) => value.constant().ok_or(UNKNOWN),
         None => Ok(0.0),

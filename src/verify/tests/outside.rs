@@ -18,18 +18,7 @@ fn standing(source: &str, target: &str, variables: &[(&str, u32)]) -> ProgramCer
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
     let (source, target) = beside(source, target, &names);
-    let assumptions = Assumptions::new();
-    let spent = Spent::default();
-    let effort = Effort::default();
-    let job = Job {
-        source: &source,
-        target: &target,
-        names: &names,
-        assumptions: &assumptions,
-        effort,
-        spent: &spent,
-    };
-    verify(&job, &[ProgramRef { file: 0, program: 0 }]).programs.remove(0)
+    verified([&source, &target], &names, &Assumptions::new()).remove(0)
 }
 
 #[track_caller]

@@ -7,7 +7,7 @@
 
 mod known;
 
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::over_calls::OverCalls;
@@ -151,7 +151,7 @@ impl Walk<'_, '_> {
             self.context.rests_on_source(self.index, stmt.site.span, Question::PassData);
         }
         if before.crossed && self.rules.clears && !whole {
-            self.refuse(stmt, "a code for its own block before this one took the words of the pass away on the source, and this block does not tell X and Z");
+            self.refuse(stmt, "a G code for one block (as G28 is) came before this one and cleared X and Z of the pass on the source, and this block does not name both");
             return false;
         }
         if !before.again {
@@ -163,7 +163,7 @@ impl Walk<'_, '_> {
                 Word::None => {}
                 Word::Told(item) => items.push(item.clone()),
                 Word::Lost => {
-                    self.refuse(stmt, "what the pass in force was told is not known here, and it must be told to the target anew after the blocks between");
+                    self.refuse(stmt, "X, Z or R of the pass in force is not known here, and the target needs it again after the M, S or T before");
                     return false;
                 }
             }
@@ -186,7 +186,7 @@ impl Walk<'_, '_> {
     }
 }
 
-fn role(item: &NcItem) -> Option<crate::canon::Role> {
+fn role(item: &NcItem) -> Option<Role> {
     match item {
         NcItem::Word(role, _) => Some(*role),
         _ => None,
@@ -195,7 +195,6 @@ fn role(item: &NcItem) -> Option<crate::canon::Role> {
 
 /// A word that makes the same pass again; no increment beside what may move the coordinates.
 fn end(word: &Word, shifts: bool) -> Option<NcItem> {
-    use crate::canon::Role;
     match word {
         Word::Told(item) => {
             let steps = matches!(role(item), Some(Role::StepX | Role::StepZ));
