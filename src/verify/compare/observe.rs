@@ -88,7 +88,14 @@ const NOWHERE: f64 = 1e-9;
 /// values of its own; so the selection itself counts only where a program returns, for its caller. A tool length counts
 /// from the next move along its axis on.
 /// Which tool is made ready shows at the next change.
-pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<Act<'r>> {
+///
+/// What `is_left_out` on the other side finds nothing there, so nothing that was found running counts before it.
+pub fn observe<'r>(
+    side: &Library<'_>,
+    run: &'r Run,
+    order: &Order<'r>,
+    is_left_out: &dyn Fn(&EventKind) -> bool,
+) -> Vec<Act<'r>> {
     let mut seen =
         Observer { side, out: Vec::new(), waiting: Vec::new(), held: Vec::new(), open: [false; 2] };
     seen.held = initial(run).into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
@@ -113,7 +120,8 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
         // Which settings stand before a mode of corners and which after it nobody could tell.
         if !is_mode(&event.what) {
             let (back, tool) = (returns(&event.what), finds_tool(&event.what));
-            let (idle, across) = (is_idle(&event.what), is_across(&event.what));
+            let across = is_across(&event.what);
+            let idle = is_idle(&event.what) || is_left_out(&event.what);
             seen.settle(|kind, event| match kind {
                 Setting::Work => back,
                 Setting::Length => !across,

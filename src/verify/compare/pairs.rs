@@ -71,9 +71,10 @@ pub(super) fn acts<'r>(
     target: (&Side<'_>, &'r Run),
     [ours, theirs]: &[Order<'r>; 2],
 ) -> [Vec<Act<'r>>; 2] {
-    let (mut ours, mut theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
-    let one_lacks = lacks_messages(source.0.control) || lacks_messages(target.0.control);
-    if !std::ptr::eq(source.0, target.0) && one_lacks {
+    let left = |what: &EventKind| builders::is_left_out(source.0, target.0, what).is_some();
+    let mut ours = observe(source.0, source.1, ours, &left);
+    let mut theirs = observe(target.0, target.1, theirs, &|_| false);
+    if !std::ptr::eq(source.0, target.0) && [source, target].iter().any(|one| lacks_messages(one.0.control)) {
         (ours, theirs) = (as_messages(ours, source.0.control), as_messages(theirs, target.0.control));
     }
     if target.0.control.profile().outputs.is_some() {
@@ -85,8 +86,7 @@ pub(super) fn acts<'r>(
     if brought(source.0.control, target.0.control) {
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
-    let [ours, theirs] = [ours, theirs].map(threads::again);
-    [joined(ours, is_cut(source.1)), joined(theirs, is_cut(target.1))]
+    [joined(threads::again(ours), is_cut(source.1)), joined(threads::again(theirs), is_cut(target.1))]
 }
 
 /// Two runs side by side.

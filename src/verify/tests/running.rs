@@ -181,3 +181,23 @@ fn a_long_program_is_compared_with_other_values_too() {
         |by: u32| format!("O1\nG90\nG0X[#1*{by}.]\n#2=0\nWHILE[#2LT30000]DO1\n#2=#2+1\nEND1\nM30\n");
     differs("fanuc", &program(2), &program(3), "the rapid move goes elsewhere");
 }
+
+/// A builder's code that the source's profile leaves out finds nothing on the target: a spindle that runs when the program begins is told by what ends it,
+/// on both sides alike.
+#[test]
+fn a_code_that_is_left_out_finds_no_spindle_running() {
+    let site = "[[site]]\ncode = \"M31\"\nname = \"conveyor\"\ndo = \"omit\"\ntext = \"conveyor\"\n";
+    let profile = format!("dialect = \"haas\"\n{site}");
+    let controls = [Control::from_profile(&profile).unwrap(), Control::plain("fanuc").unwrap()];
+    let execute = ["haas", "fanuc"].map(|name| registry::find(name).unwrap().execute.unwrap());
+    let found = |target: &str| {
+        let parsed = [("O1\nM31\nM5\nM30\n", &controls[0]), (target, &controls[1])]
+            .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
+        let files = [0, 1].map(|at| [LoadedFile { name: "a.nc", parsed: &parsed[at] }]);
+        let [source, target] = [0, 1].map(|at| Side::new(&controls[at], execute[at], &files[at]));
+        verified([&source, &target], &SymbolMap::default(), &Assumptions::new()).remove(0)
+    };
+    let rests = |found: &ProgramCertificate| found.reasons.iter().any(|reason| reason.why == Why::EntryState);
+    assert!(!rests(&found("O1\nM5\nM30\n")));
+    assert_eq!(found("O1\nG4P1.\nM5\nM30\n").outcome, Outcome::Different);
+}
