@@ -167,6 +167,9 @@ fn infeed(profile: &Profile, a: Point, axis: usize) -> f64 {
     sense(ways.fold(0.0, |most: f64, way| if way.abs() > most.abs() { way } else { most }))
 }
 
+/// A contour that turns back by less, in millimetres, does not turn: no word can say it, but the top of an arc may lie so far beyond its end.
+const TURNED: f64 = 0.001;
+
 /// R10.
 fn monotone(
     profile: &Profile,
@@ -177,15 +180,15 @@ fn monotone(
     let (first, second) = if axis == 0 { ("PS0064", "PS0329") } else { ("PS0329", "PS0064") };
     let back = || alarm(first, "the contour turns back along the cut");
     let other = 1 - axis;
-    if valleys && (profile.begin()[other] - a[other]) * along < -DEEPER {
+    if valleys && (profile.begin()[other] - a[other]) * along < -TURNED {
         return Err(back());
     }
     for part in profile.pieces.iter().skip(1).flat_map(Piece::parts) {
         let way = |axis: usize| part.to[axis] - part.from[axis];
-        if way(other) * along < -DEEPER || (along == 0.0 && way(other).abs() > DEEPER) {
+        if way(other) * along < -TURNED || (along == 0.0 && way(other).abs() > TURNED) {
             return Err(back());
         }
-        if !valleys && way(axis) * infeed > DEEPER {
+        if !valleys && way(axis) * infeed > TURNED {
             return Err(alarm(second, "the contour turns back along the infeed"));
         }
     }

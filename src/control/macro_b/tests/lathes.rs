@@ -363,3 +363,18 @@ fn radii() {
     let text = "O1\nG0 X30. Z2.\nG1 U-2. F.2\nX20. Z0.\nM30\n";
     assert_eq!(moves(&run(&radii, text)), [[60.0, 2.0], [56.0, 2.0], [40.0, 0.0]]);
 }
+
+/// R10: the arc of a round corner may begin a hair before its top. With R.1 from X19.98 Z0. to X20.2 Z-.11 the centre lies at radius 10.0006 and
+/// Z-.0994, so the top is 0.0006 above Z0.: less than any word can say. With R.3 from X19.5 to X20.2 Z-.2 it is 0.0071 above.
+#[test]
+fn the_top_of_a_rounded_corner_does_not_turn_a_contour_back() {
+    let text = |start: &str, arc: &str| {
+        let cycle = "G71 U2. R.5\nG71 P10 Q20 U.4 W.1 F.2";
+        format!(
+            "O1\nG97 S500 M3\nG0 X30. Z2.\n{cycle}\nN10 G0 X{start}\nG1 Z0. F.1\n{arc}\nG1 Z-9.\nN20 X30.\nM30\n"
+        )
+    };
+    let near = run(FANUC, &text("19.98", "G3 X20.2 Z-.11 R.1"));
+    assert!(!matches!(near.end, End::Alarm { .. }), "{:?}", near.end);
+    assert_eq!(alarm(&run(FANUC, &text("19.5", "G3 X20.2 Z-.2 R.3"))).0, "PS0064");
+}
