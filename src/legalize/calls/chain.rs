@@ -74,6 +74,7 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
         }
         let own = if main { places(program) } else { BTreeMap::new() };
+        let ends = program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::End { .. }));
         for block in &mut program.blocks {
             let TermKind::Return { to } = &mut block.term.kind else { continue };
             let Some(wanted) = to.take() else { continue };
@@ -85,6 +86,10 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 let finding = match guess {
                     _ if both => Diagnostic::new(Code::NoEquivalent, span, EITHER).with_help(EITHER_HELP),
                     Some(_) => Diagnostic::new(Code::Conditional, span, BY_NUMBER).assuming(Predicate::Main),
+                    // One that ends the run is a main program: the question is the library's, if other files may call it.
+                    None if ends => Diagnostic::new(Code::Conditional, span, UNCALLED)
+                        .assuming(Predicate::Main)
+                        .asked_once(),
                     None => Diagnostic::new(Code::Conditional, span, UNCALLED).assuming(Predicate::Main),
                 };
                 context.add(index, finding);
