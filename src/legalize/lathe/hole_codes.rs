@@ -1,6 +1,6 @@
 //! M codes and tool words in the drilling blocks of a lathe.
 //!
-//! Law: none. Such a code acts between the position and the hole, as the clamp of C does, and the control undoes it after the hole by a code
+//! Law: none, but that one control does it alike on both machines. Such a code acts between the position and the hole, as the clamp of C does, and the control undoes it after the hole by a code
 //! that only the builder knows: nothing on another machine is sure to be the same. So it is refused. Counter-example: `C90. M31`, where
 //! M31 clamps the spindle before the drill goes down and M32 lets it go after.
 
@@ -10,8 +10,11 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, NcItem};
 use crate::legalize::Context;
 
-/// Refuses them.
+/// Refuses them, but between machines of one control: there the code acts alike, whatever its builder made of it.
 pub fn run(module: &Module, context: &mut Context<'_>) {
+    if context.source.name() == context.target.name() {
+        return;
+    }
     holes::each(module, context, |index, span, nc, context| {
         if nc.items.iter().any(acts) {
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, WHAT).with_help(HELP));

@@ -16,7 +16,10 @@ pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
         (hole.nc.word(whole).and_then(Expr::constant), hole.cycle.plane, hole.cycle.initial)
         && (initial - plane) * (bottom - plane) > 0.0
     {
-        return Err((BELOW, "begin the cycle at the retract plane or beyond it"));
+        if !begins_at(hole, plane) {
+            return Err((BELOW, "begin the cycle at the retract plane or beyond it"));
+        }
+        hole.put(Role::CycleRStep, Role::CycleRStep, Expr::Number(0.0));
     }
     match hole.op {
         Op::FaceTapMain => {
@@ -36,6 +39,23 @@ pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
         op => drill(hole, op)?,
     }
     Ok(1)
+}
+
+/// Lets a hole begin at its plane, where both controls go first and the source ends it (docs/lathe.md Q5, Q9): the way there is a block of its own.
+fn begins_at(hole: &mut Hole<'_>, plane: f64) -> bool {
+    let (along, across, at) = match hole.side() {
+        true => (Role::X, [Role::Z, Role::StepZ], hole.place.z()),
+        false => (Role::Z, [Role::X, Role::StepX], hole.place.x()),
+    };
+    let [place, step] = across.map(|role| hole.nc.word(role));
+    let stays = step.is_none() && place.is_none_or(|place| at.is_some() && place.constant() == at);
+    let turns = [Role::Y, Role::C, Role::StepY, Role::StepC].iter().any(|role| hole.nc.word(*role).is_some());
+    let may = hole.fresh && hole.begins && hole.rapid && stays && !turns;
+    if may {
+        hole.before.push(Nc { items: vec![NcItem::Op(Op::Rapid), NcItem::Word(along, Expr::Number(plane))] });
+        hole.cycle.initial = Some(plane);
+    }
+    may
 }
 
 /// A tap of a live tool: the code before it makes it rigid, and turns the tool at the speed beside it.

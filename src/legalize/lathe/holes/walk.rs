@@ -84,6 +84,8 @@ pub(super) struct Hole<'h> {
     pub asked: Vec<Asked>,
     /// Blocks that go before it.
     pub before: Vec<Nc>,
+    /// True where rapid traverse is in force before and after it.
+    pub rapid: bool,
 }
 
 impl Hole<'_> {
@@ -295,6 +297,7 @@ impl Walk {
         (all, target, by_steps): (&All, &Control, bool),
     ) -> Option<Made> {
         let (before, spindle) = (state.op(Group::Cycle), state.op(Group::Spindle));
+        let motion = state.op(Group::Motion);
         state.step(stmt);
         let turns =
             |nc: &Nc| nc.ops().any(|op| op.group() == Group::Spindle) || nc.word(Role::Speed).is_some();
@@ -360,6 +363,7 @@ impl Walk {
             waits,
             asked: Vec::new(),
             before: Vec::new(),
+            rapid: motion == Some(Op::Rapid) && state.op(Group::Motion) == motion,
         };
         let done = if by_steps { by_step::change(&mut hole) } else { by_place::change(&mut hole) };
         let times = match done {
