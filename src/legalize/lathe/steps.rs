@@ -12,7 +12,11 @@ use super::zeros::{adds, sets_zero};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
+use crate::ir::analysis::calls_of;
+use crate::ir::analysis::over_calls::called;
+use crate::ir::{
+    BinOp, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind,
+};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
@@ -142,8 +146,15 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let (mut found, mut changed) = (Vec::new(), Vec::new());
     let is_modal = |stmt: &Stmt| matches!(stmt.kind, StmtKind::ModalCall(_));
     let mut stmts = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|block| &block.stmts);
-    let calls_after_moves = stmts.any(is_modal);
+    let any_modal = stmts.any(is_modal);
+    let called = called(module);
+    let by_name = |call: &Call| !matches!(call.callee, Callee::Computed(_) | Callee::Cycle(_));
+    let named = module.programs.iter().flat_map(|p| &p.blocks).all(|block| calls_of(block).all(by_name));
     for (index, program) in module.programs.iter_mut().enumerate() {
+        // One that calls nothing, and that nothing calls, has no modal call in force.
+        let calls_none = program.blocks.iter().flat_map(calls_of).next().is_none();
+        let alone = calls_none && named && called.get(index) == Some(&false);
+        let calls_after_moves = any_modal && !alone;
         let (straight, reached, fresh) = (entered_straight(program), reached(program), restarts(program));
         // What a macro after each move does to where cycles begin is not known.
         let contours = if calls_after_moves { Contours::default() } else { Contours::of(program) };
