@@ -58,6 +58,8 @@ pub struct Diagnostic {
     pub asks: Option<Arc<Asks>>,
     /// The setting that the source's machine profile would have to state, as its table names it.
     pub setting: Option<Arc<str>>,
+    /// The same of the target's profile.
+    pub setting_there: Option<Arc<str>>,
     /// True for what a person decides once for the library and its machines: a program has a note of it.
     pub once: bool,
     /// Who accepted it, if somebody did: it asks nothing then.
@@ -98,6 +100,7 @@ impl Diagnostic {
             assumes: None,
             asks: None,
             setting: None,
+            setting_there: None,
             once: false,
             accepted: None,
         }
@@ -127,6 +130,13 @@ impl Diagnostic {
     #[must_use]
     pub fn lacking(mut self, setting: impl Into<Arc<str>>) -> Self {
         self.setting = Some(setting.into());
+        self
+    }
+
+    /// Names the setting that the target's machine profile would have to state.
+    #[must_use]
+    pub fn lacking_there(mut self, setting: impl Into<Arc<str>>) -> Self {
+        self.setting_there = Some(setting.into());
         self
     }
 

@@ -111,6 +111,9 @@ fn named(finding: &Diagnostic) -> Option<(Side, Arc<str>, Option<f64>)> {
     if let Some(name) = &finding.setting {
         return Some((Side::Source, name.clone(), None));
     }
+    if let Some(name) = &finding.setting_there {
+        return Some((Side::Target, name.clone(), None));
+    }
     match finding.assumes.as_deref()? {
         Predicate::Setting(name, value) => Some((Side::Target, name.clone(), Some(*value))),
         _ => None,

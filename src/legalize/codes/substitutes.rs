@@ -47,6 +47,11 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
          are set to",
     ),
     (
+        Op::StrokeCheckOff,
+        None,
+        "the end of the stored stroke check is dropped: the target has no code for one, and watches its travel by settings alone",
+    ),
+    (
         Op::ScaleOff,
         None,
         "the end of scaling is dropped: the target has no code for scaling, and none may be in force there",

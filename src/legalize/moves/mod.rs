@@ -18,6 +18,7 @@ pub(in crate::legalize) mod reference;
 pub(in crate::legalize) mod rotary_places;
 pub(in crate::legalize) mod rotary_ways;
 pub(in crate::legalize) mod rotations;
+pub(in crate::legalize) mod second_home;
 pub(in crate::legalize) mod shaped;
 pub(in crate::legalize) mod shift;
 pub(in crate::legalize) mod short_arcs;

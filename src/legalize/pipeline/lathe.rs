@@ -148,7 +148,7 @@ pub(super) const LATHE: &[Pass] = &[
         rapid_in_force::run,
     )
     .when(rapid_in_force::concerns)
-    .needs(&["home", "lathe-cycles"]),
+    .needs(&["home", "second-home", "lathe-cycles"]),
     Pass::rewrites(
         "contour-types",
         "contours with valleys are told to the target by a word, or by their first block",

@@ -8,8 +8,8 @@ use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     added_angles, bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar,
-    rapid_once, reference, rotary_ways, rotations, shaped, shift, short_arcs, under_increments, unit_agrees,
-    unit_checks, units, word_rounds,
+    rapid_once, reference, rotary_ways, rotations, second_home, shaped, shift, short_arcs, under_increments,
+    unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -156,6 +156,13 @@ pub(super) const MOVES: &[Pass] = &[
     )
     .when(|c, context| c.op(Op::ReferenceReturn) && home::concerns(context.target))
     .needs(&["reference", "kept-length"]),
+    Pass::rewrites(
+        "second-home",
+        "returns to the second reference position become moves to the place for it",
+        second_home::run,
+    )
+    .when(|c, context| c.op(Op::Reference2) && second_home::concerns(context.target))
+    .needs(&["reference"]),
     Pass::rewrites(
         "machine-moves",
         "moves in machine coordinates cancel the zero shifts, and select them again",

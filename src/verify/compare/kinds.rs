@@ -62,7 +62,7 @@ pub fn is_move(what: &EventKind) -> bool {
 pub fn is_mode(what: &EventKind) -> bool {
     let EventKind::Other { operation, .. } = what else { return false };
     operation.group() == Group::PathMode
-        || matches!(operation, Op::LimitLookahead | Op::AxisGain | Op::PathQuality)
+        || matches!(operation, Op::LimitLookahead | Op::AxisGain | Op::PathQuality | Op::StrokeCheckOff)
 }
 
 /// True for the end of a program that others call.

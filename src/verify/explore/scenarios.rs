@@ -148,6 +148,10 @@ impl Proposals {
     fn around(&mut self, variables: BTreeMap<String, f64>, count: usize) -> Scenario {
         let mut scenario = machine(&mut self.random);
         scenario.sets_named = self.inputs.sets_named;
+        // What stands for the second reference position of the source is that position.
+        for (axis, place) in [0, 2].into_iter().zip(self.inputs.second_home) {
+            scenario.references[1][axis] = place.unwrap_or(scenario.references[1][axis]);
+        }
         self.tables(&mut scenario, count);
         // The machine has those rotary axes that its programs name.
         for axis in (3..6).filter(|axis| self.inputs.turns_by_sign || !self.inputs.rotary[axis - 3]) {

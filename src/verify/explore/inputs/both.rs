@@ -42,6 +42,7 @@ pub fn inputs_of_both(
     found.skips.extend(other.skips);
     found.asks |= other.asks;
     found.turns_by_sign |= other.turns_by_sign;
+    found.second_home = target.control.second_home();
     for (own, others) in found.rotary.iter_mut().zip(other.rotary) {
         *own |= others;
     }

@@ -25,6 +25,8 @@ pub struct Inputs {
     /// True where the sign of an absolute angle is the way of its axis: then the way hangs on where the axis stands, and
     /// conversions hold for one that stands at 0.
     pub turns_by_sign: bool,
+    /// Where the target's profile says that the second reference position is, along X and Z: millimetres, X a diameter.
+    pub second_home: [Option<f64>; 2],
     /// True if the control has tool offsets past 99.
     pub many_tools: bool,
     /// The unit that the machine must be set to, where the program checks it: true for inch.

@@ -287,6 +287,7 @@ impl<'c> Reader<'c> {
             sets_named: false,
             rotary: [false; 3],
             turns_by_sign: false,
+            second_home: [None; 2],
             many_tools: false,
             inch: self.inch,
             selected: self.selected,
