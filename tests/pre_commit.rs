@@ -39,17 +39,6 @@ fn tools() -> &'static Path {
     })
 }
 
-/// A folder with a copy of the program: while the wheel is built, the one in the target folder may be written anew.
-fn program() -> &'static Path {
-    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pre-commit-program");
-        std::fs::create_dir_all(&folder).unwrap();
-        std::fs::copy(env!("CARGO_BIN_EXE_macroglot"), folder.join("macroglot")).unwrap();
-        folder
-    })
-}
-
 fn said(output: &Output, what: &str) -> String {
     let all = [&output.stdout[..], &output.stderr].concat();
     let all = String::from_utf8_lossy(&all).into_owned();
@@ -68,7 +57,7 @@ impl Shop {
     fn with(hooks: &str) -> Self {
         let path = format!(
             "{}:{}:{}",
-            program().display(),
+            Path::new(env!("CARGO_BIN_EXE_macroglot")).parent().unwrap().display(),
             tools().join("bin").display(),
             std::env::var("PATH").unwrap()
         );
@@ -235,16 +224,38 @@ fn the_recipes_work_as_they_stand() {
     }
 }
 
-/// Built as a release builds it, but for the optimization.
+/// A crate that is packed as ours is, whose program is the one that was built for the tests: another build of all of it would
+/// take longer than all other tests here.
+fn packed() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let manifest = text("Cargo.toml");
+    let (head, _) = manifest.split_once("[dependencies]").unwrap();
+    assert!(head.contains("[lib]") && head.contains("[[bin]]"), "{head}");
+    let main = format!(
+        "fn main() {{\n    let mut program = std::process::Command::new({:?});\n    let status = \
+         program.args(std::env::args_os().skip(1)).status().unwrap();\n    \
+         std::process::exit(status.code().unwrap_or(101));\n}}\n",
+        env!("CARGO_BIN_EXE_macroglot")
+    );
+    std::fs::create_dir(folder.path().join("src")).unwrap();
+    for (name, text) in [("Cargo.toml", head), ("src/lib.rs", ""), ("src/main.rs", &main)] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    for name in ["pyproject.toml", "README.md", "LICENSE-MIT", "LICENSE-APACHE"] {
+        std::fs::copy(root().join(name), folder.path().join(name)).unwrap();
+    }
+    folder
+}
+
 #[test]
 fn a_wheel_installs_and_a_hook_in_python_runs_it() {
     let wheels = TempDir::new().unwrap();
-    program();
+    let crate_folder = packed();
     let built = Command::new(tools().join("bin/maturin"))
-        .args(["build", "--locked", "--profile", "dev", "--quiet", "--out"])
+        .args(["build", "--profile", "dev", "--quiet", "--out"])
         .arg(wheels.path())
-        .current_dir(root())
-        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_BIN_EXE_macroglot")).ancestors().nth(2).unwrap())
+        .current_dir(crate_folder.path())
+        .env("CARGO_TARGET_DIR", crate_folder.path().join("target"))
         .output();
     said(&built.unwrap(), "maturin build");
     let wheel = std::fs::read_dir(wheels.path()).unwrap().flatten().map(|entry| entry.path()).next().unwrap();
