@@ -178,7 +178,7 @@ impl Verifier<'_, '_> {
             }
             Err(None) => Found::Nothing,
             Err(Some(difference)) if self.rests_on_start(scenario, &run, difference.source) => {
-                let resets = states.iter().all(|state| state.resets);
+                let resets = states.iter().all(|state| state.resets || state.ends && !self.returns);
                 match resets && self.target_rests(scenario, &other, there) {
                     true => Found::Granted,
                     false => Found::Rests(difference.what),

@@ -32,6 +32,8 @@ pub struct Start {
     pub turns: bool,
     /// True for what controls go back to when they are switched on or reset: a program may rest on that.
     pub resets: bool,
+    /// True for what a reset and power-on switch off: a program that does not return may rest on that, whose caller may leave it on.
+    pub ends: bool,
 }
 
 /// A state that every program is tried in.
@@ -46,6 +48,7 @@ const fn always(name: &'static str, noun: &'static str, words: &'static str) -> 
         named: (None, &[]),
         turns: false,
         resets: false,
+        ends: false,
     }
 }
 
@@ -95,11 +98,13 @@ const STARTS: &[Start] = &[
     Start {
         put: |entry| entry.spindle = Some(77.0),
         named: (Some(Group::Spindle), &[]),
+        ends: true,
         ..always("spindle", "whether the spindle runs", "with the spindle running")
     },
     Start {
         put: |entry| entry.coolant = true,
         named: (Some(Group::Coolant), &[]),
+        ends: true,
         ..always("coolant", "whether the coolant is on", "with the coolant on")
     },
     Start {

@@ -120,12 +120,19 @@ fn each_side_finds_what_its_own_callers_started() {
     assert_eq!(found("M9").0, Different);
 }
 
-/// The Fadal ends coolant at M0 by itself: what the source does rests on whether that was on, and a person is told so.
+/// The Fadal ends coolant at M0 by itself. A reset and power-on switch it off, so a main program finds none; of one that returns nobody
+/// knows what its callers left on, and a person is told so.
 #[test]
 fn a_stop_that_ends_what_was_found_on_rests_on_the_start() {
     let source = "O1\nL100\nM9\nM17\nM30\nG0G90G17G40G49G80E1\nS800M3\nG1F300.\nM0\nG0X5.\nM2\n";
     let target = "O1\nGOTO10\nM9\nM99\nN10G0G90G17G40G49G80G54\nS800M3\nG1F300.\nM5\nM0\nG0X5.\nM2\n";
     let found = programs(("fadal", source), ("fanuc", target), &[]).remove(0);
+    assert_eq!(found.outcome, Outcome::Same, "{:?}", found.reasons);
+
+    let stops = "G0G90G17G40G49G80G54\nS800M3\nG1F300.\n";
+    let source = format!("O1\n{stops}M0\nM9\nG0X5.\nM99\n");
+    let target = format!("O1\n{stops}M5\nM0\nM9\nG0X5.\nM99\n");
+    let found = programs(("haas", &source), ("fanuc", &target), &[]).remove(0);
     assert_eq!(found.outcome, Outcome::Undecided, "{:?}", found.witness);
     assert!(found.reasons.iter().any(|reason| reason.why == Why::EntryState), "{:?}", found.reasons);
 }
