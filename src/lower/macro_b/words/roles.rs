@@ -216,6 +216,17 @@ impl<'a> Lowering<'a> {
             let (code, name) = (row.code.as_str().into(), letter.to_string().into());
             return self.findings.add(told.asking_for(Asks::Word { target: false, code, letter, name }));
         }
+        if let Some(cycle) = self.idle_beside(word, codes) {
+            let what = format!(
+                "{} has no meaning beside {cycle}, and is left out: make sure that the machine does nothing with it, neither in \
+                 this cycle nor in a later one that has none of its own",
+                word.letter
+            );
+            let told = Diagnostic::new(Code::Conditional, span, what);
+            return self
+                .findings
+                .add(told.with_help("take it out of the program, or write the cycle that takes it"));
+        }
         // A code that acts in its block alone is the one that takes words of its own.
         let own = codes.iter().find(|(_, row)| row.op.group() == Group::OneShot || row.op.is_cycle());
         let beside = match own.or(codes.first()) {
@@ -237,6 +248,15 @@ impl<'a> Lowering<'a> {
             Some((help, asks)) => told.with_help(help).asking_for(asks),
             None => told,
         });
+    }
+
+    /// The drilling cycle of a mill that a word of another cycle stands beside: programs carry such words along.
+    fn idle_beside(&self, word: &Word, codes: &BlockCodes<'a>) -> Option<&'a str> {
+        let (_, row) = codes.iter().find(|(_, row)| row.op.is_cycle())?;
+        let rows = || self.control.dialect().codes.iter().filter(|row| row.op.is_cycle());
+        let others =
+            rows().any(|other| matches!(explicit(other, word), Some(Role::CycleDwell | Role::CycleQ)));
+        (others && !word.comma && self.control.machine() == Machine::Mill).then_some(row.code.as_str())
     }
 
     /// What to do where a builder's word beside a code of the spindle says which spindle it is: `M3 P11`.
