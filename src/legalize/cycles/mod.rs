@@ -9,6 +9,7 @@ pub(in crate::legalize) mod cycle_waits;
 pub(in crate::legalize) mod cycle_words;
 pub(in crate::legalize) mod drill_planes;
 pub(in crate::legalize) mod dwell;
+pub(in crate::legalize) mod even_pecks;
 pub(in crate::legalize) mod hole_circles;
 pub(in crate::legalize) mod hole_moves;
 pub(in crate::legalize) mod inherited_words;

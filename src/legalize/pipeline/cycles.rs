@@ -4,7 +4,9 @@ use super::Pass;
 use super::lathe::is_mill;
 use crate::canon::{Op, Role};
 use crate::legalize::codes::{lookahead, waits};
-use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
+use crate::legalize::cycles::{
+    cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, hole_moves,
+};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::operator::alarms;
 
@@ -47,6 +49,9 @@ pub(super) const CYCLES: &[Pass] = &[
     )
     .when(cycle_planes::concerns)
     .needs(&["cycle-here"]),
+    Pass::edits("even-pecks", "pecks that are all as deep as the first are told by Q", even_pecks::run).when(
+        |c, context| is_mill(context) && even_pecks::concerns(c) && !hole_moves::replaces(context.target),
+    ),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
         .when(|c, context| {
             let words = cycle_words::ROLES.iter().any(|role| c.role(*role));
