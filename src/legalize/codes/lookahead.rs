@@ -2,15 +2,18 @@
 //!
 //! Law: a statement that waits until all moves are done is needed only where the target runs macro
 //! statements early; there, a block that stops reading ahead stands for it where the target has one; else reading ahead is
-//! limited to the least and empty blocks hold it back. Where the target has no such limit, none is set. Both change when a
+//! limited to the least and empty blocks hold it back. Where the target has no such limit, none is set; if it has a block that stops
+//! reading ahead, a program that sets a limit waits before it reads where the machine is. Both change when a
 //! value is read or an output is switched, never what is computed; hence review diagnostics. A limit in a program that
 //! reads no state of the machine is dropped with a note. Side condition: no cutter compensation is in force, under which the
 //! target takes no limit; where the library compensates, the limit is taken off again after the empty blocks.
 
+use super::waits::hold;
 use crate::assume::Predicate;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
+use crate::ir::analysis::may_come_back;
 use crate::ir::analysis::modal_facts::replace_statements;
 use crate::ir::{
     Block, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
@@ -30,6 +33,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let early = context.target.is(Question::LookaheadRunsEarly);
     let stops = context.target.statement("lookahead.stop").is_some();
     let reads: Vec<bool> = module.programs.iter().map(reads_state).collect();
+    if !waits && !limits && stops && early {
+        let come_back = may_come_back(module);
+        for program in module.programs.iter_mut().filter(|program| is_limited(program)) {
+            hold(program, come_back);
+        }
+    }
     let compensates = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(compensates);
     let mut entry = context.entry.clone();
     // Programs start without compensation: only what one begins may be in force.
@@ -66,8 +75,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let told = match reads.get(index) {
                     Some(false) => Diagnostic::new(Code::QualityDropped, span, UNREAD),
                     _ => {
-                        let what = "the limit on reading ahead is dropped: the target has none, so the blocks after it \
-                             may read inputs and switch outputs early";
+                        let what = if stops && early { HELD } else { DROPPED };
                         Diagnostic::new(Code::Conditional, span, what).asked_once()
                     }
                 };
@@ -84,8 +92,20 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     module.programs.iter_mut().flat_map(|p| &mut p.blocks).for_each(|block| _ = drop_emptied(block));
 }
 
+const DROPPED: &str = "the limit on reading ahead is dropped: the target has none, so the blocks after it may read inputs and switch outputs early";
+
+const HELD: &str = "the limit on reading ahead is dropped: the target has none. It waits before each place that it reads, but the blocks after the \
+     limit may read inputs and switch outputs early";
+
 const UNREAD: &str = "the limit on reading ahead is dropped: the target has none, and nothing in this program reads or writes what reading \
      ahead could change";
+
+/// True for a program that limits how far the control reads ahead.
+fn is_limited(program: &Program) -> bool {
+    let limits =
+        |stmt: &Stmt| matches!(&stmt.kind, StmtKind::LimitLookahead(to) if to.constant() != Some(0.0));
+    program.blocks.iter().flat_map(|block| &block.stmts).any(limits)
+}
 
 /// True where the last block with words before this place stops reading ahead: nothing has moved since.
 fn holds(out: &Stmts) -> bool {

@@ -27,15 +27,17 @@ fn reads_early(target: &Control) -> bool {
 /// Waits before what would be early.
 pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
     let come_back = may_come_back(module);
-    let mut changed = false;
-    for program in &mut module.programs {
-        let follows = following(program, come_back);
-        // Statements after a wait are at their place until the next move.
-        let mut waited = false;
-        for (block, follows) in program.blocks.iter_mut().zip(follows) {
-            waited &= follows;
-            changed |= look(block, &mut waited);
-        }
+    module.programs.iter_mut().fold(false, |changed, program| hold(program, come_back) | changed)
+}
+
+/// Waits in a program before what would be early; true where any were put in.
+pub(super) fn hold(program: &mut Program, come_back: bool) -> bool {
+    let follows = following(program, come_back);
+    // Statements after a wait are at their place until the next move.
+    let (mut waited, mut changed) = (false, false);
+    for (block, follows) in program.blocks.iter_mut().zip(follows) {
+        waited &= follows;
+        changed |= look(block, &mut waited);
     }
     changed
 }
