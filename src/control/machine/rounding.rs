@@ -177,6 +177,14 @@ impl Machine {
         }
     }
 
+    /// A work offset is written: what is no whole number of increments may be computed from a place that was read.
+    pub(super) fn round_written(&mut self, place: f64) {
+        if self.off_place(place) > 0.0 {
+            let read = self.rounding.read * self.unit();
+            self.rounding.frame[2] = self.rounding.frame[2].max(read);
+        }
+    }
+
     /// Takes in the words of a drilling cycle.
     pub(super) fn round_cycle(&mut self, command: &Command, along: usize, begins: bool) {
         let across = |role: Role| axis(role).is_some_and(|axis| axis != along);

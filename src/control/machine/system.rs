@@ -202,6 +202,7 @@ impl Machine {
             Sys::ExternalShift | Sys::WorkOffset => {
                 let axis = axis.ok_or_else(nothing)?;
                 let number = if state == Sys::WorkOffset { Some(first.ok_or_else(nothing)?) } else { None };
+                self.round_written(value * self.axis_unit(axis));
                 self.keep_work(number, axis, value * self.axis_unit(axis), trace);
             }
             Sys::LengthGeometry
