@@ -1,15 +1,20 @@
 //! Moves in machine coordinates that feed, for a target that goes there by rapid traverse alone.
 //!
-//! Law: under the code of the rapid both go there by rapid. Under another code the source may feed, and the target's code never does: no
-//! other code of the target moves in machine coordinates, so the program is refused. Where it is not known which code is in force a
-//! reviewer has to look. Counter-example: `G53 G1 Z-5. F20.`, a crash where it is rapid.
+//! Law: under the code of the rapid both go there by rapid. Under another code the source may feed, and the target's code never does.
+//! The way from where the machine stands to a place of the machine is the difference of the two, whatever offsets and lengths are in
+//! force, so an increment by it feeds to the same place on the same line. The machine has to stand when its place is read.
+//! Side conditions, each refused: G1 and G90 are known to be in force; the block names X, Y or Z alone, none of them may be vacant; no
+//! compensation, cycle, mirror, scaling or rotation and no feed in inverse time can be in force; no length is taken up or ended in it, and
+//! after the last length something went to a place along Z: an increment may make up for one that has not counted yet.
+//! Where it is not known which code is in force a reviewer has to look. Counter-example: `G53 G1 Z-5. F20.`, a crash where it is rapid.
 
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Machine, Question};
-use crate::ir::Module;
-use crate::legalize::Context;
+use crate::ir::analysis::modal_facts::replace_statements;
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
 
 const FEEDS: &str = "a move in machine coordinates under a code that feeds: the target makes every such move by rapid traverse";
 
@@ -28,18 +33,110 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
         && !context.source.is(rapid)
 }
 
-/// Refuses them.
-pub fn run(module: &Module, context: &mut Context<'_>) {
+/// Makes them increments, or refuses them.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    facts.each(module, &mut |index, stmt, _, after| {
-        if !stmt.kind.nc().is_some_and(|nc| nc.has(Op::MachineOnce) && nc.names_axis()) {
-            return;
+    let library = Library::of(module);
+    replace_statements(module, &facts, |index, state, stmt, out| {
+        state.step(&stmt);
+        let found = stmt.kind.nc().filter(|nc| nc.has(Op::MachineOnce) && nc.names_axis());
+        let (Some(nc), false) = (found, state.op(Group::Motion) == Some(Op::Rapid)) else {
+            return out.push(stmt);
+        };
+        let span = stmt.site.span;
+        let settled = nc.word(Role::Z).is_none() || !library.lengths || counts(out);
+        if let Some(items) = increments(nc, state, &library).filter(|_| settled) {
+            context.rests_on_source(index, span, Question::MachineMoveRapid);
+            return put(items, stmt, out);
         }
-        let (code, what) = match after.op(Group::Motion) {
-            Some(Op::Rapid) => return,
+        let (code, what) = match state.op(Group::Motion) {
             Some(_) => (Code::NoEquivalent, FEEDS),
             None => (Code::Conditional, MAY_FEED),
         };
-        context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what).with_help(HELP));
+        context.add_once(index, what, Diagnostic::new(code, span, what).with_help(HELP));
+        out.push(stmt);
     });
+}
+
+/// What of a library can be in force somewhere in it.
+struct Library {
+    /// Coordinates are turned, scaled, mirrored or polar, all shifts are cancelled, or a feed is in inverse time.
+    shaped: bool,
+    compensates: bool,
+    drills: bool,
+    lengths: bool,
+}
+
+impl Library {
+    fn of(module: &Module) -> Self {
+        let features = Features::of(&module.programs);
+        let shaped = |op| {
+            use Op::{FeedInverse, MirrorOn, Pole, RotateOn, ScaleOn, ShiftCancel};
+            matches!(op, RotateOn | ScaleOn | MirrorOn | Pole | ShiftCancel | FeedInverse)
+        };
+        Self {
+            shaped: features.any_op(shaped),
+            compensates: features.any_op(|op| matches!(op, Op::RadiusLeft | Op::RadiusRight)),
+            drills: features.any_op(Op::is_cycle),
+            lengths: features.role(Role::LengthOffset)
+                || features.any_op(|op| matches!(op, Op::LengthPlus | Op::LengthMinus)),
+        }
+    }
+}
+
+/// True where the length in force counts: after its code these statements go to a place along Z.
+fn counts(before: &Stmts) -> bool {
+    for nc in before.iter().rev().filter_map(|stmt| stmt.kind.nc().filter(|_| stmt.site.skip.is_none())) {
+        let own = |op: Op| matches!(op, Op::MachineOnce | Op::Incremental) || op.group() == Group::OneShot;
+        if nc.word(Role::Z).is_some() && !nc.ops().any(own) {
+            return true;
+        }
+        let length = |op: Op| op.group() == Group::LengthComp || op == Op::ToolChange;
+        if nc.ops().any(length) || nc.word(Role::LengthOffset).is_some() {
+            return false;
+        }
+    }
+    false
+}
+
+/// The words of an increment that goes to the same place; none where a side condition fails.
+fn increments(nc: &Nc, state: &Modal, library: &Library) -> Option<Vec<NcItem>> {
+    let is = |group, op| state.op(group) == Some(op);
+    let plain = is(Group::Motion, Op::Linear) && is(Group::Distance, Op::Absolute) && !library.shaped;
+    let free = !library.compensates || is(Group::RadiusComp, Op::RadiusOff);
+    let no_cycle = !library.drills || is(Group::Cycle, Op::CycleOff);
+    if !(plain && free && no_cycle) {
+        return None;
+    }
+    let mut items = vec![NcItem::Op(Op::Incremental), NcItem::Op(Op::Linear)];
+    for item in &nc.items {
+        match item {
+            NcItem::Op(Op::MachineOnce | Op::Absolute | Op::Linear) => {}
+            NcItem::Word(Role::Feed, _) => items.push(item.clone()),
+            NcItem::Op(op) if matches!(op.group(), Group::Coolant | Group::Spindle) => {
+                items.push(item.clone())
+            }
+            NcItem::Word(role @ (Role::X | Role::Y | Role::Z), to) if !to.may_be_vacant() => {
+                items.push(NcItem::Word(*role, way(*role, to)?));
+            }
+            _ => return None,
+        }
+    }
+    Some(items)
+}
+
+/// How far it is from where the machine stands.
+fn way(role: Role, to: &Expr) -> Option<Expr> {
+    let axis = Expr::Number(f64::from(role.axis_number()?));
+    let stands = Expr::System(Sys::MachinePosition, [axis].into());
+    Some(Expr::binary(BinOp::Sub, to.clone(), stands))
+}
+
+/// A wait until the machine stands, the increment, and absolute coordinates again.
+fn put(items: Vec<NcItem>, stmt: Stmt, out: &mut Stmts) {
+    let span = stmt.site.span;
+    let aside = || SourceInfo { span, ..SourceInfo::default() };
+    out.push(Stmt { kind: StmtKind::Sync, site: aside() });
+    out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site: stmt.site });
+    out.push(Stmt { kind: StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Absolute)] }), site: aside() });
 }

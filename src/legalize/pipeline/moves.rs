@@ -54,8 +54,12 @@ pub(super) const MOVES: &[Pass] = &[
     )
     .when(left_shifts::concerns)
     .needs(&["external"]),
-    Pass::reports("machine-feeds", "refuses moves in machine coordinates that feed", machine_feeds::run)
-        .when(machine_feeds::concerns),
+    Pass::rewrites(
+        "machine-feeds",
+        "moves in machine coordinates that feed become increments",
+        machine_feeds::run,
+    )
+    .when(machine_feeds::concerns),
     Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::reports("added-angles", "tells of angles of rotations that may add up", added_angles::run)
