@@ -10,7 +10,7 @@
 
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Machine, Question};
+use crate::dialect::{Control, Machine, Question, Units};
 use crate::ir::analysis::modal_facts::replace_statements;
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::features::Features;
@@ -23,6 +23,12 @@ const MAY_FEED: &str = "a move in machine coordinates, and it is not known wheth
 
 const HELP: &str = "write G0 into its block if it may be rapid, else move in coordinates of the part; if the source's moves are rapid too, say so in its \
      machine profile, as machine.move.rapid";
+
+const UNIT: &str = "a feed move in machine coordinates becomes an increment from the place that the target reads, and no source says whether it \
+     reads it in the unit of the program or of the machine";
+
+const UNIT_HELP: &str = "if the machine has the unit of the program, say so in the target's machine profile, as units; else read the machine's position in MDI under \
+     this unit, and compare it with the machine position on the screen";
 
 /// True for two mills, where the target alone is known to go there by rapid whatever is in force.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -47,6 +53,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let settled = nc.word(Role::Z).is_none() || !library.lengths || counts(out);
         if let Some(items) = increments(nc, state, &library).filter(|_| settled) {
             context.rests_on_source(index, span, Question::MachineMoveRapid);
+            if !in_its_unit(state, context.target) {
+                let told = Diagnostic::new(Code::Conditional, span, UNIT).with_help(UNIT_HELP);
+                context.add_once(index, UNIT, told.asked_once());
+            }
             return put(items, stmt, out);
         }
         let (code, what) = match state.op(Group::Motion) {
@@ -56,6 +66,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         context.add_once(index, what, Diagnostic::new(code, span, what).with_help(HELP));
         out.push(stmt);
     });
+}
+
+/// True where a place reads the same in the unit in force and in that of the machine.
+fn in_its_unit(state: &Modal, target: &Control) -> bool {
+    let in_force = match state.op(Group::Units) {
+        Some(Op::Inch) => Units::Inch,
+        Some(Op::Metric) => Units::Metric,
+        _ => return true,
+    };
+    target.units() == Some(in_force)
 }
 
 /// What of a library can be in force somewhere in it.
