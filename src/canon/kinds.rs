@@ -178,6 +178,12 @@ impl Op {
         )
     }
 
+    /// True for a way to a reference position, to check it, or from it: axis words beside it are its points.
+    pub const fn is_return(self) -> bool {
+        use Op::*;
+        matches!(self, ReferenceCheck | ReferenceReturn | ReferenceFrom | Reference2)
+    }
+
     /// True for a G code that is for its own block alone, but for the wait.
     pub const fn is_for_its_block(self) -> bool {
         use Op::*;

@@ -162,7 +162,7 @@ const TURNS: &str = "a rotary axis turns alone while a drilling cycle is in forc
 /// True where a block turns a rotary axis. Codes that take the word for themselves do not.
 fn tells_turn(nc: &Nc) -> bool {
     let aside = nc.ops().any(|op| op.takes_axes() || op == Op::MachineOnce || op.group() == Group::Motion);
-    let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::CycleOff));
+    let returns = nc.ops().any(|op| op.is_return() || op == Op::CycleOff);
     !aside && !returns && [Role::A, Role::B, Role::C].iter().any(|role| nc.word(*role).is_some())
 }
 
@@ -173,7 +173,7 @@ fn tells_depth(nc: &Nc, plane: Option<Op>) -> bool {
         Some(Op::PlaneYz) => Role::X,
         _ => Role::Z,
     };
-    let aside = nc.ops().any(|op| op.takes_axes() || op == Op::MachineOnce);
+    let aside = nc.ops().any(|op| op.takes_axes() || op == Op::MachineOnce || op.is_return());
     !aside && (nc.word(Role::CycleR).is_some() || nc.word(along).is_some())
 }
 
