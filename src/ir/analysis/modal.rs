@@ -49,6 +49,9 @@ pub struct LengthLost {
     pub by_machine_move: Ways,
     /// A tool change.
     pub by_change: Ways,
+    /// True where every way here went home, or in machine coordinates, along the axis of the length, whatever length was in
+    /// force.
+    pub is_home: bool,
 }
 
 /// On which of the ways to a place something happens.
@@ -72,6 +75,7 @@ impl LengthLost {
             by_other_axes: join(self.by_other_axes, other.by_other_axes),
             by_machine_move: join(self.by_machine_move, other.by_machine_move),
             by_change: join(self.by_change, other.by_change),
+            is_home: self.is_home && other.is_home,
         };
         std::mem::replace(self, joined) != joined
     }
@@ -249,6 +253,9 @@ impl Modal {
             self.length_lost = LengthLost::default();
         }
         self.length_named |= row.is_some() || nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
+        let leaves = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce));
+        self.length_lost.is_home |=
+            leaves && nc.word(Role::Z).is_some_and(|value| value.constant().is_some());
         let ways = match self.of(Group::LengthComp) {
             Setting::Known(Op::LengthPlus | Op::LengthMinus, _) => Ways::Every,
             Setting::Unknown if self.length_named => Ways::Some,
@@ -289,6 +296,7 @@ impl Modal {
             self.settings[Group::Units as usize] = unit;
         }
         self.feed = Feed::Unknown;
+        self.length_lost.is_home = false;
     }
 
     fn set(&mut self, op: Op, number: Option<f64>) {

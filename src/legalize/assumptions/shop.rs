@@ -85,7 +85,7 @@ pub(in crate::legalize) fn moves_by_code(nc: &Nc, before: &Modal) -> bool {
         return false;
     }
     let lost = before.length_lost;
-    let gone = lost.by_reference == Ways::Every || lost.by_machine_move == Ways::Every;
+    let gone = lost.is_home || lost.by_reference == Ways::Every || lost.by_machine_move == Ways::Every;
     let row = nc.word(Role::LengthOffset).map(|row| row.constant().map(|row| row as u32));
     let begins = nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
     let in_force = before.of(Group::LengthComp);
