@@ -2,22 +2,24 @@
 //!
 //! `#100=6000` and in the next block `IF[#100GT2500]`: no circumstances go the other way, so nothing is missed where none
 //! did. What a jump that was not taken says counts too: after `IF[#1LT2]GOTO9` the variable is 2 or more, and its whole
-//! part no more than itself. Of a source only what stands in one row is looked at: the literals at its head are edited, and
-//! then other ways are gone. Of a target that is run as it stands jumps are followed: a place that they lead to knows what
-//! holds on each way there; one that a later jump leads back to, or that a call or a return may mean, knows nothing. Nor does
-//! what comes after a code that may call something.
+//! part no more than itself. Jumps are followed: a place that they lead to knows what holds on each way there; one that a
+//! later jump leads back to, or that a call or a return may mean, knows nothing. After a code that may call something no
+//! more is known than of the locals of a program whose callee has its own. The literals at the head of a source are edited,
+//! and then other ways are gone: what they are counts only where they stand in one row with the condition; further off it
+//! counts that they are numbers.
 
+mod conditions;
 mod jumps;
 mod known;
 
-use crate::canon::{Func, Op, Sys};
+use crate::canon::{Func, Sys};
 use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
 use crate::syntax::{BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Target, TestSubject, VarRef};
 use crate::text::Span;
 use crate::verify::sides::{Side, class_of, name_of};
-use jumps::{Jumps, State, goes, is_plain};
-use known::{Known, Range, opposite};
+use jumps::{Jumps, State, goes, is_plain, join, keeps_locals};
+use known::{Known, Range};
 use std::collections::BTreeSet;
 
 /// What a control with a condition register holds there: no variable has this name.
@@ -28,15 +30,33 @@ const REGISTER: &str = "";
 /// How a vacant variable compares counts only where a source confirms it; or, with `as_run`, as the emulated control has
 /// it: runs on it tell by themselves where that mattered.
 pub fn impossible(side: &Side<'_>, program: ProgramRef, as_run: bool) -> BTreeSet<(Span, i64)> {
-    let (control, text) = (side.control, side.text(program));
+    let mut out = read(side, program, Looks { as_run, follows: as_run, literals: true });
+    if !as_run {
+        out.extend(read(side, program, Looks { as_run, follows: true, literals: false }));
+    }
+    out
+}
+
+/// How a text is looked at.
+#[derive(Clone, Copy)]
+struct Looks {
+    as_run: bool,
+    /// True if jumps are followed; else only what stands in one row counts.
+    follows: bool,
+    /// False if a literal may be any number.
+    literals: bool,
+}
+
+fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i64)> {
+    let (control, text, links) = (side.control, side.text(program), side.links());
     // Under a modal call, its own or its callers', each move of the program may be one.
-    let may_be = side.links().is_called(program) || !text.iter().all(|block| is_plain(&block.items, control));
-    let modal = may_be && control.dialect().codes.iter().any(|row| row.op == Op::CallModal);
-    let jumps = Jumps::of(text, control);
+    let may_be = links.is_called(program) || !text.iter().all(|block| is_plain(&block.items, control));
+    let modal = may_be && links.has_modal_calls();
+    let jumps = Jumps::of(text, control, links.returns_to_blocks());
     let (known, out) = (State::new(), BTreeSet::new());
-    let mut reader = Reader { control, as_run, modal, jumps, known, is_reached: true, out };
+    let mut reader = Reader { control, looks, modal, jumps, known, is_reached: true, out };
     for block in text {
-        if as_run {
+        if looks.follows {
             let before = reader.is_reached.then(|| std::mem::take(&mut reader.known));
             let state = reader.jumps.enter(block, before);
             reader.is_reached = state.is_some();
@@ -45,7 +65,7 @@ pub fn impossible(side: &Side<'_>, program: ProgramRef, as_run: bool) -> BTreeSe
         // A block that can be skipped may not have run: only what it leaves alone is still known.
         let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
         let before = (skipped && reader.is_reached).then(|| reader.known.clone());
-        if as_run {
+        if looks.follows {
             reader.words(&block.items);
             block.items.iter().for_each(|item| reader.item(item));
         } else {
@@ -64,7 +84,7 @@ pub fn impossible(side: &Side<'_>, program: ProgramRef, as_run: bool) -> BTreeSe
 
 struct Reader<'c> {
     control: &'c Control,
-    as_run: bool,
+    looks: Looks,
     /// True if its moves may be calls.
     modal: bool,
     jumps: Jumps,
@@ -94,6 +114,8 @@ impl Reader<'_> {
                 self.set(REGISTER.into(), None);
                 match self.name(target) {
                     Some(name) => self.set(name, value),
+                    // Nothing goes on after an alarm.
+                    None if self.looks.follows && self.is_alarm(target) => self.is_reached = false,
                     None => self.known.clear(),
                 }
             }
@@ -105,7 +127,7 @@ impl Reader<'_> {
                     _ => None,
                 };
                 self.decided(item.span, held);
-                self.jumps.jump(target, self.state(held != Some(false)));
+                self.jumps.jump(target, self.known_if(held != Some(false)));
                 self.is_reached &= held != Some(true);
             }
             Test(TestSubject::Variable(variable)) => {
@@ -116,28 +138,7 @@ impl Reader<'_> {
             If { condition, body, .. } => {
                 let held = self.holds(condition);
                 self.decided(condition.span, held);
-                let runs = held != Some(false);
-                for item in body {
-                    match &item.kind {
-                        Goto(target) => {
-                            self.jumps.jump(target, self.state(runs));
-                            self.is_reached &= held != Some(true);
-                        }
-                        _ if !runs => {}
-                        // It may be done or not.
-                        Assign { target, .. } => match self.name(target) {
-                            Some(name) => self.set(name, None),
-                            // An alarm, an output, an offset: no variable of a program.
-                            None if self.is_system(target) => {}
-                            None => self.known.clear(),
-                        },
-                        Comment(_) | EndOfBlock => {}
-                        _ => self.known.clear(),
-                    }
-                }
-                if held.is_none() && matches!(body.first().map(|item| &item.kind), Some(Goto(_))) {
-                    self.went_on(condition);
-                }
+                self.branch(condition, body, held);
             }
             Comment(_)
             | MacroMark
@@ -158,6 +159,42 @@ impl Reader<'_> {
         }
     }
 
+    /// What stands behind a condition may be done or not.
+    fn branch(&mut self, condition: &Expr, body: &[Item], held: Option<bool>) {
+        let before = self.known.clone();
+        if held.is_none() {
+            self.held(condition);
+        }
+        let mut goes_on = true;
+        for item in body {
+            match &item.kind {
+                ItemKind::Goto(target) => {
+                    self.jumps.jump(target, self.known_if(held != Some(false)));
+                    goes_on = false;
+                }
+                ItemKind::Assign { target, .. } if self.name(target).is_some() => self.item(item),
+                ItemKind::Assign { target, .. } if self.is_alarm(target) => goes_on = false,
+                // An output, an offset: no variable of a program.
+                ItemKind::Assign { target, .. } if self.is_system(target) => {}
+                ItemKind::Comment(_) | ItemKind::EndOfBlock => {}
+                _ => self.known.clear(),
+            }
+        }
+        let done = std::mem::replace(&mut self.known, before);
+        if held.is_none() {
+            self.went_on(condition);
+        }
+        match held {
+            Some(true) if goes_on => self.known = done,
+            Some(true) => self.is_reached = false,
+            None if goes_on => {
+                let left = std::mem::take(&mut self.known);
+                self.known = join(Some(left), Some(done)).unwrap_or_default();
+            }
+            _ => {}
+        }
+    }
+
     /// What the words of a block leave known.
     fn words(&mut self, items: &[Item]) {
         if let Some(target) = goes(items, self.control) {
@@ -165,18 +202,20 @@ impl Reader<'_> {
         }
         let words = items.iter().any(|item| matches!(item.kind, ItemKind::Word(_)));
         if words && (self.modal || !is_plain(items, self.control)) {
-            self.known.clear();
+            let (control, own) = (self.control, keeps_locals(items, self.control));
+            let is_local = |name: &str| class_of(control, name).is_some_and(|row| row.class == "local");
+            self.known.retain(|name, _| own && is_local(name));
         }
     }
 
     /// Goes elsewhere for good.
     fn leave(&mut self, target: &Target, runs: bool) {
-        self.jumps.jump(target, self.state(runs));
+        self.jumps.jump(target, self.known_if(runs));
         self.is_reached = false;
     }
 
     /// What is known here, if a run comes here and goes on.
-    fn state(&self, runs: bool) -> Option<State> {
+    fn known_if(&self, runs: bool) -> Option<State> {
         (runs && self.is_reached).then(|| self.known.clone())
     }
 
@@ -212,38 +251,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Takes in that the jump on a condition was not taken.
-    fn went_on(&mut self, condition: &Expr) {
-        let ExprKind::Binary(op, operands) = &bare(condition).kind else { return };
-        let [a, b] = &**operands;
-        let ExprKind::Variable(variable) = &bare(a).kind else { return };
-        let (Some(name), Some(holds)) = (self.name(variable), opposite(*op)) else { return };
-        match self.value(b) {
-            // It is not vacant.
-            Some(Known::Vacant) if *op == BinaryOp::Equal => {
-                self.known.entry(name).or_insert(Known::Number(Range::ANY));
-            }
-            Some(Known::Number(Range { low, high, .. })) if low == high => {
-                let old = match self.known.get(&name) {
-                    Some(Known::Number(range)) => range.clone(),
-                    Some(Known::Vacant) => return,
-                    // A vacant one, taken for 0, must have jumped.
-                    None if !self.is_nullable(&name) => Range::ANY,
-                    None if self.says(Question::VacantComparesAsZero, "true") => {
-                        let jumps = Range::one(0.0).compare(*op, &Range::one(low)) == Some(true);
-                        if !jumps || matches!(op, BinaryOp::Equal | BinaryOp::NotEqual) {
-                            return;
-                        }
-                        Range::ANY
-                    }
-                    None => return,
-                };
-                self.known.insert(name, Known::Number(old.where_holds(holds, low)));
-            }
-            _ => {}
-        }
-    }
-
     /// The name of a variable that nothing but a program writes; none of any other, which might be any.
     fn name(&self, variable: &VarRef) -> Option<String> {
         let Index::Number(number) = variable.index else { return None };
@@ -257,15 +264,24 @@ impl Reader<'_> {
     }
 
     fn is_system(&self, variable: &VarRef) -> bool {
-        let Index::Number(number) = variable.index else { return false };
-        self.control.read_system(&variable.name, Some(number)).is_some()
+        self.state(variable).is_some()
+    }
+
+    fn is_alarm(&self, variable: &VarRef) -> bool {
+        self.state(variable) == Some(Sys::Alarm)
+    }
+
+    fn state(&self, variable: &VarRef) -> Option<Sys> {
+        let Index::Number(number) = variable.index else { return None };
+        self.control.read_system(&variable.name, Some(number)).map(|(state, ..)| state)
     }
 
     fn value_of(&self, variable: &VarRef) -> Option<Known> {
         let Index::Number(number) = variable.index else { return None };
         match self.control.read_system(&variable.name, Some(number)) {
             Some((Sys::Empty, ..)) => Some(Known::Vacant),
-            Some(_) => None,
+            // What the machine says is a number.
+            Some(_) => Some(Known::Number(Range::ANY)),
             None => self.known.get(&self.name(variable)?).cloned(),
         }
     }
@@ -277,6 +293,7 @@ impl Reader<'_> {
             _ => Range::ANY,
         };
         match &e.kind {
+            ExprKind::Number(_) if !self.looks.literals => any,
             ExprKind::Number(number) => Some(Known::Number(Range::one(number.value))),
             ExprKind::Group(inner) | ExprKind::Plus(inner) => self.value(inner),
             ExprKind::Negate(inner) => Some(Known::Number(number(inner).negated())),
@@ -306,68 +323,9 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether a condition holds, where that is known.
-    fn holds(&self, e: &Expr) -> Option<bool> {
-        use BinaryOp::*;
-        let (op, [left, right]) = match &e.kind {
-            ExprKind::Group(inner) => return self.holds(inner),
-            ExprKind::Binary(op, operands) => (*op, &**operands),
-            _ => return None,
-        };
-        let (a, b) = (self.value(left)?, self.value(right)?);
-        let as_zero = |known: &Known| match known {
-            Known::Number(range) => Some(range.clone()),
-            Known::Vacant => self.says(Question::VacantComparesAsZero, "true").then_some(Range::one(0.0)),
-        };
-        match (op, &a, &b) {
-            (Equal | NotEqual, Known::Vacant, Known::Vacant) => Some(op == Equal),
-            (Equal | NotEqual, Known::Vacant, Known::Number(other))
-            | (Equal | NotEqual, Known::Number(other), Known::Vacant) => {
-                let never_zero = other.low > 0.0 || other.high < 0.0;
-                (never_zero || self.says(Question::VacantEqZero, "false")).then_some(op == NotEqual)
-            }
-            _ => {
-                let (a, b) = (as_zero(&a)?, as_zero(&b)?);
-                let by_whole = || self.against_its_whole(op, (left, &a), (right, &b));
-                a.compare(op, &b).or_else(by_whole)
-            }
-        }
-    }
-
-    /// Whether a comparison of a variable with its whole part holds, where its sign says so.
-    fn against_its_whole(&self, op: BinaryOp, left: (&Expr, &Range), right: (&Expr, &Range)) -> Option<bool> {
-        use BinaryOp::*;
-        let is = |whole: &Range, of: &Expr| {
-            let ExprKind::Variable(variable) = &bare(of).kind else { return false };
-            whole.whole_of.is_some() && whole.whole_of == self.name(variable)
-        };
-        // How it is written: the variable first.
-        let (op, of) = if is(right.1, left.0) {
-            (op, left.1)
-        } else if is(left.1, right.0) {
-            let turned = match op {
-                Less => Greater,
-                LessEqual => GreaterEqual,
-                Greater => Less,
-                GreaterEqual => LessEqual,
-                op => op,
-            };
-            (turned, right.1)
-        } else {
-            return None;
-        };
-        match op {
-            Less if of.low >= 0.0 => Some(false),
-            GreaterEqual if of.low >= 0.0 => Some(true),
-            Greater if of.high <= 0.0 => Some(false),
-            LessEqual if of.high <= 0.0 => Some(true),
-            _ => None,
-        }
-    }
-
     fn says(&self, question: Question, answer: &str) -> bool {
         let row = self.control.behaviour(question);
-        row.is_some_and(|row| (row.origin.is_settled() || self.as_run) && row.value == answer)
+        row.is_some_and(|row| (row.origin.is_settled() || self.looks.as_run) && row.value == answer)
     }
 }
 

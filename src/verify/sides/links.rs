@@ -30,6 +30,10 @@ pub struct Links {
     open: HashSet<ProgramRef>,
     /// True for each of A, B and C that the profile lists, or that a program has a word of.
     rotary: [bool; 3],
+    /// True where a program begins a call at each move.
+    has_modal_calls: bool,
+    /// True where a program returns to a block of its caller.
+    returns_to_blocks: bool,
 }
 
 /// The letters of the rotary axes.
@@ -78,6 +82,17 @@ impl Links {
         if side.text(program).iter().any(|block| calls_something(side, &block.items)) {
             self.open.insert(program);
         }
+        for block in side.text(program) {
+            let ops = || words(&block.items).filter_map(|word| op(side, word));
+            // `M#1` beside a call is an argument, and no code.
+            let own = !gives_arguments(side, &block.items);
+            let computed = own && ops().any(|op| op.is_none());
+            self.has_modal_calls |=
+                computed || ops().any(|op| matches!(op, Some(Op::CallModal | Op::CallModalEach)));
+            let names = words(&block.items).any(|word| word.letter == 'P');
+            let returns = own && ops().any(|op| op == Some(Op::Return));
+            self.returns_to_blocks |= names && (computed || returns);
+        }
         let name = side.name(program);
         if let (Some(named), Some(ran)) = (self.named.last_mut(), self.ran.last_mut()) {
             named.entry(name.cloned()).or_default().push(program);
@@ -121,6 +136,16 @@ impl Links {
     /// True for a program that may call another one: one that its text names, or one that it does not name.
     pub fn may_call(&self, program: ProgramRef) -> bool {
         !self.callees(program).is_empty() || self.open.contains(&program)
+    }
+
+    /// True where some program may begin a call at each move, so that moves of those that it calls are calls too.
+    pub fn has_modal_calls(&self) -> bool {
+        self.has_modal_calls
+    }
+
+    /// True where some program may return to a block of its caller that it names.
+    pub fn returns_to_blocks(&self) -> bool {
+        self.returns_to_blocks
     }
 
     /// True for each of A, B and C that the machine has by its profile, or that a program has a word of.
@@ -247,6 +272,16 @@ fn gives_arguments(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
             alias
                 .map_or_else(|| row().is_some_and(|row| ARGUMENTS.contains(&row.op)), |alias| alias.arguments)
         })
+    })
+}
+
+/// What a code means; none inside where its number is computed, and none at all for a word that is no code.
+#[allow(clippy::option_option)]
+fn op(side: &ProgramTexts<'_>, word: &Word) -> Option<Option<Op>> {
+    let is_code = matches!(word.letter, 'G' | 'M');
+    is_code.then(|| match number(word) {
+        Some(number) => side.control.code(word.letter, number, &[]).map(|row| row.op).or(Some(Op::Builder)),
+        None => None,
     })
 }
 

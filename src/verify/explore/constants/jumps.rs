@@ -30,7 +30,8 @@ pub(super) struct Jumps {
 }
 
 impl Jumps {
-    pub(super) fn of(blocks: &[Block], control: &Control) -> Self {
+    /// `returns` is true where some program returns to a block of its caller.
+    pub(super) fn of(blocks: &[Block], control: &Control, returns: bool) -> Self {
         let mut all = Self::default();
         for block in blocks {
             let mut words = false;
@@ -55,8 +56,11 @@ impl Jumps {
                 _ => {}
             });
             // What is called may return to a block of this program.
-            all.anywhere |=
-                words && goes.is_none() && !is_plain(&block.items, control) && !is_end(&block.items, control);
+            all.anywhere |= returns
+                && words
+                && goes.is_none()
+                && !is_plain(&block.items, control)
+                && !is_end(&block.items, control);
         }
         all
     }
@@ -103,7 +107,7 @@ fn key(target: &Target) -> Option<Key> {
 }
 
 /// What holds on both ways.
-fn join(one: Option<State>, other: Option<State>) -> Option<State> {
+pub(super) fn join(one: Option<State>, other: Option<State>) -> Option<State> {
     let (one, other) = match (one, other) {
         (Some(one), Some(other)) => (one, other),
         (one, other) => return one.or(other),
@@ -150,6 +154,12 @@ pub(super) fn is_plain(items: &[Item], control: &Control) -> bool {
                 && !name.ends_with(".other")
         })
     })
+}
+
+/// True for a block whose only code that is not plain calls a program with locals of its own.
+pub(super) fn keeps_locals(items: &[Item], control: &Control) -> bool {
+    let is_call = |op: Op| matches!(op, Op::CallMacro | Op::CallModal | Op::CallModalEach | Op::CallModalOff);
+    is_plain(items, control) || ops(items, control).all(|op| op.is_some_and(is_call))
 }
 
 /// Where a block goes whose code is a jump to a label (`G24 P5`); none for any other.

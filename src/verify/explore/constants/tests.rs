@@ -6,11 +6,15 @@ use crate::verify::sides::Side;
 
 /// The ways that conditions of the first program never go, each with its text.
 fn never(dialect: &str, text: &str) -> Vec<(String, i64)> {
+    ways(dialect, text, true)
+}
+
+fn ways(dialect: &str, text: &str, as_run: bool) -> Vec<(String, i64)> {
     let control = Control::plain(dialect).unwrap();
     let parsed = parse_file(text.as_bytes(), control.entry().parse);
     let files = [LoadedFile { name: "a.nc", parsed: &parsed }];
     let side = Side::new(&control, registry::find(dialect).unwrap().execute.unwrap(), &files);
-    let found = impossible(&side, ProgramRef { file: 0, program: 0 }, true);
+    let found = impossible(&side, ProgramRef { file: 0, program: 0 }, as_run);
     found.into_iter().map(|(span, way)| (text[span.range()].trim().to_owned(), way)).collect()
 }
 
@@ -31,6 +35,7 @@ fn what_jumps_come_by_with_is_known() {
         "IF[#100GT0]GOTO8\n#100=-1\nN8",
         "IF[#101GT5]GOTO7\n#100=3\nN7",
         "#100=#100*#100",
+        "IF[#101GT5]THEN#100=1",
     ] {
         assert!(is_shown(between), "{between}");
     }
@@ -49,7 +54,7 @@ fn what_may_come_by_otherwise_is_not() {
         "G#103",
         "#3006=1(SET #100)",
         "#[#101]=1",
-        "IF[#101GT5]THEN#100=1",
+        "IF[#101GT5]THEN#100=-1",
         "IF[#101GT5]GOTO7\n#100=-1\nN7",
         "/GOTO7\n#100=-1\nN7",
         "/#100=-1",
@@ -59,6 +64,38 @@ fn what_may_come_by_otherwise_is_not() {
     ] {
         assert!(!is_shown(between), "{between}");
     }
+}
+
+/// The ways that conditions of a source never go, whatever its literals are.
+fn never_of_source(text: &str) -> Vec<(String, i64)> {
+    ways("fanuc", text, false)
+}
+
+#[test]
+fn a_source_is_followed_without_its_literals() {
+    let dead = |between: &str, way: i64, tail: &str| {
+        let text = format!("O1\n{between}\nIF[#24EQ#0]GOTO5\nG0X2.\nN5M99\n{tail}");
+        never_of_source(&text).iter().any(|(text, at)| text.contains("#24EQ#0") && *at == way)
+    };
+    for between in
+        ["IF[#24NE#0]GOTO4\n#24=#5041\nN4\nG31X#24", "IF[#24EQ#0]THEN#24=5.\nG0X#24", "#24=5.\nG65P2\nG1X5."]
+    {
+        assert!(dead(between, 1, "O2\nM99\n"), "{between}");
+        assert!(!dead(between, 0, "O2\nM99\n"), "{between}");
+    }
+    // What is called as a subprogram has the same locals; so has what comes back to a block of its caller.
+    assert!(!dead("#24=5.\nM98P2", 1, "O2\n#24=#0\nM99\n"));
+    assert!(!dead("IF[#24NE#0]GOTO4\nN4", 1, ""));
+    assert!(!dead("IF[#24EQ5]GOTO4\n#25=1\nN4", 1, ""));
+    // A literal at the head is edited: any number may stand there.
+    let edited = "O1\n#100=6000\nG0X1.\nIF[#100GT2500]GOTO5\nG0X2.\nN5M30\n";
+    assert!(never_of_source(edited).is_empty());
+    let alarm = "O1\nIF[#1GT2]GOTO3\n#3000=1(NO)\nIF[#1GT4]GOTO3\nN3M30\n";
+    assert_eq!(never_of_source(alarm).len(), 2);
+    // Nothing comes to what stands behind a jump, unless a call comes back to it.
+    let behind = "O1\nG65P2\nGOTO5\nIF[#1GT2]GOTO5\nN3IF[#1GT3]GOTO5\nN5M30\nO2\n";
+    assert_eq!(never_of_source(&format!("{behind}M99\n")).len(), 4);
+    assert_eq!(never_of_source(&format!("{behind}M99P3\n")).len(), 2);
 }
 
 #[test]
