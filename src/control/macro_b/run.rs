@@ -370,6 +370,7 @@ impl<'c> Runner<'c> {
 
     /// The words and the drilling cycle that an earlier program left in force.
     fn start_words(&mut self) {
+        self.found_words();
         let entry = &self.session.scenario.entry;
         let offsets = [('H', entry.length), ('D', entry.cutter)];
         let offsets = offsets.into_iter().filter_map(|(letter, number)| Some((letter, f64::from(number?))));

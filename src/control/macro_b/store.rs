@@ -160,4 +160,15 @@ impl Runner<'_> {
         self.session.machine.write(system.state, &system.subscripts, value, &mut self.session.trace)?;
         Ok(())
     }
+    /// Numbers of offsets, and a speed, that stand in words which were written before this run.
+    pub(super) fn found_words(&mut self) {
+        // D, H and S, counted from A as 1: what they say has no unit.
+        let plain = |subscript: &u32| matches!(subscript, 4 | 8 | 19);
+        for found in self.session.scenario.state.iter().filter(|found| found.state == Sys::Address) {
+            let place = found.subscripts.first().filter(|subscript| plain(subscript));
+            if let Some(address) = place.and_then(|place| self.addresses.get_mut(*place as usize)) {
+                *address = found.value;
+            }
+        }
+    }
 }
