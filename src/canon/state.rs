@@ -170,6 +170,28 @@ impl Sys {
         )
     }
 
+    /// True for what a control that reads ahead may read before the moves before it are done: what the machine has come to, and
+    /// not what its program says.
+    pub const fn is_read_early(self) -> bool {
+        use Sys::*;
+        matches!(
+            self,
+            MachinePosition
+                | WorkPosition
+                | SkipPosition
+                | Input
+                | InputWord
+                | Analog
+                | TimerMs
+                | TimerHours
+                | CycleSeconds
+                | SpindleActual
+                | Act
+                | Output
+                | OutputWord
+        )
+    }
+
     /// True for a length or a position, which is read and written in the unit in force.
     pub const fn is_length(self) -> bool {
         use Sys::*;

@@ -65,6 +65,8 @@ pub struct Context<'a> {
     pub(super) m_codes: OnceLock<BTreeSet<Op>>,
     /// The operations that the target has codes for.
     pub(super) had: OnceLock<BTreeSet<Op>>,
+    /// The programs of the source in which every read waits until the moves before it are done.
+    pub waiting: BTreeSet<usize>,
     findings: Findings,
     /// Questions of behaviour that programs were seen to rest on.
     rested: HashSet<(usize, Side, Question)>,
@@ -186,10 +188,16 @@ impl<'a> Context<'a> {
             numbers: ProgramNumbers::default(),
             m_codes: OnceLock::new(),
             had: OnceLock::new(),
+            waiting: BTreeSet::new(),
             findings,
             rested,
             facts,
         }
+    }
+
+    /// Notes that in a program every read waits until the moves before it are done.
+    pub(super) fn wait_for_moves(&mut self, index: usize) {
+        self.waiting.extend(self.origins.get(index));
     }
 
     /// True where both controls are known to give one answer, or have what is known by one row of a base.

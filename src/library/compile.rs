@@ -58,6 +58,7 @@ pub(super) fn make(
     let numbers = std::mem::take(&mut context.numbers);
     let origins = std::mem::take(&mut context.origins);
     let copied = std::mem::take(&mut context.copied);
+    let waiting = std::mem::take(&mut context.waiting);
     let legal = context.into_findings();
     lock.take(&registers, numbers.chosen);
     lock.hold(copied.iter().filter_map(|copy| {
@@ -69,6 +70,10 @@ pub(super) fn make(
     naming.set_marks(marks, continues);
     found.resize_with(count, Vec::new);
     found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
+    // The conversion waits there: whether the source read earlier, and meant to, is one question for all programs.
+    let early = found.iter_mut().enumerate().filter(|(program, _)| waiting.contains(program));
+    let early = early.flat_map(|(_, all)| all).filter(|finding| finding.code == Code::EarlyRead);
+    early.for_each(|finding| finding.once = true);
     let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];
     if let Some(fault) = fault {
         found.iter_mut().for_each(|all| {

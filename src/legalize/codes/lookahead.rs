@@ -36,7 +36,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !waits && !limits && stops && early {
         let come_back = may_come_back(module);
         for program in module.programs.iter_mut().filter(|program| is_limited(program)) {
-            hold(program, come_back);
+            hold(program, come_back, false);
         }
     }
     let compensates = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(compensates);
@@ -151,7 +151,7 @@ fn compensates(stmt: &Stmt) -> bool {
 }
 
 /// A limit of one block and the empty ones; taken off again where it must not stay.
-fn limit(site: SourceInfo, taken_off: bool, out: &mut Stmts) {
+pub(super) fn limit(site: SourceInfo, taken_off: bool, out: &mut Stmts) {
     let span = site.span;
     let empty = || Stmt { kind: StmtKind::Comment, site: SourceInfo { span, ..SourceInfo::default() } };
     let to = |count: f64| StmtKind::LimitLookahead(Expr::Number(count));
@@ -183,7 +183,10 @@ fn say_limit(index: usize, state: Option<&Modal>, span: Span, context: &mut Cont
              after them"
         }
     };
-    context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+    let told = Diagnostic::new(Code::Conditional, span, what);
+    // Without compensation it is the maker's own way to wait: how far the machine reads ahead is one question for all.
+    let is_open = matches!(state.map(|state| state.op(Group::RadiusComp)), Some(None));
+    context.add_once(index, what, if is_open { told } else { told.asked_once() });
 }
 
 /// Says what becomes of a wait where the target has neither a wait nor a limit.

@@ -2,20 +2,38 @@
 //!
 //! Law: where the target works out macro statements while moves before them are still to come, a wait before a statement that
 //! reads what moves change, or that switches an output, lets it see and do what it would where the text has it. A wait
-//! computes nothing. Side condition: none; where no move is to come it waits for nothing. Counter-example: `G1 G31 X50.`,
-//! `V1=AX`, which reads where the axes were when the probe began.
+//! computes nothing. Where no move is to come it waits for nothing. A mill that has no wait is told to read no further ahead
+//! than one block, with empty blocks to hold it back, and as far as before after them. Side condition: it takes no such limit
+//! under cutter compensation, so programs that have any are left as they are. Counter-example: `G1 G31 X50.`, `V1=AX`, which
+//! reads where the axes were when the probe began.
 
-use crate::canon::Sys;
-use crate::dialect::{Control, Question};
-use crate::ir::analysis::{Cfg, may_come_back, modal_bodies};
-use crate::ir::{Block, BlockId, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
+use super::by_number::numbers;
+use super::lookahead::limit;
+use crate::canon::{Op, Sys};
+use crate::dialect::{Control, Machine, Question};
+use crate::ir::analysis::{Assigned, Cfg, Summaries, may_come_back, modal_bodies};
+use crate::ir::{
+    Block, BlockId, Expr, Module, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
+};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
-use std::collections::BTreeSet;
+use std::cell::LazyCell;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// True if the library reads state, and the target reads it early unless it is told to wait.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    features.has(Feature::System) && reads_early(context.target)
+    features.has(Feature::System) && (reads_early(context.target) || takes_limit(context))
+}
+
+/// True for a mill that reads early, and that can be told to read less far ahead.
+fn takes_limit(context: &Context<'_>) -> bool {
+    let target = context.target;
+    target.is(Question::LookaheadRunsEarly)
+        && !target.is(Question::SystemReadWaits)
+        && target.statement("wait").is_none()
+        && target.code_for(Op::LimitLookahead, &BTreeMap::new()).is_some()
+        && target.machine() == Machine::Mill
+        && target.name() != context.source.name()
 }
 
 fn reads_early(target: &Control) -> bool {
@@ -25,19 +43,37 @@ fn reads_early(target: &Control) -> bool {
 }
 
 /// Waits before what would be early.
-pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let come_back = may_come_back(module);
-    module.programs.iter_mut().fold(false, |changed, program| hold(program, come_back) | changed)
+    let limits = takes_limit(context);
+    let compensates: Vec<bool> = match limits {
+        true => {
+            let summaries = context.summaries(module);
+            let source = context.source;
+            module.programs.iter().map(|program| compensates(program, &summaries, source)).collect()
+        }
+        false => Vec::new(),
+    };
+    let mut changed = false;
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        match compensates.get(index) {
+            Some(true) => continue,
+            Some(false) => context.wait_for_moves(index),
+            None => {}
+        }
+        changed |= hold(program, come_back, limits);
+    }
+    changed
 }
 
-/// Waits in a program before what would be early; true where any were put in.
-pub(super) fn hold(program: &mut Program, come_back: bool) -> bool {
+/// Waits in a program before what would be early, by a limit or a wait; true where any were put in.
+pub(super) fn hold(program: &mut Program, come_back: bool, limits: bool) -> bool {
     let follows = following(program, come_back);
     // Statements after a wait are at their place until the next move.
     let (mut waited, mut changed) = (false, false);
     for (block, follows) in program.blocks.iter_mut().zip(follows) {
         waited &= follows;
-        changed |= look(block, &mut waited);
+        changed |= look(block, &mut waited, limits);
     }
     changed
 }
@@ -54,14 +90,33 @@ fn following(program: &Program, come_back: bool) -> Vec<bool> {
     program.ids().map(only).collect()
 }
 
-/// Waits in a block; `waited` tells whether nothing moved since the last wait.
-fn look(block: &mut Block, waited: &mut bool) -> bool {
+/// True for a program in which cutter compensation may begin.
+fn compensates(program: &Program, summaries: &Summaries, source: &Control) -> bool {
+    let begins = |op: Op| matches!(op, Op::RadiusLeft | Op::RadiusRight);
+    let assigned = LazyCell::new(|| Assigned::new(program, summaries));
+    program.ids().zip(&program.blocks).any(|(id, block)| {
+        block.stmts.iter().enumerate().any(|(at, stmt)| {
+            let items = stmt.kind.nc().map_or(&[][..], |nc| &nc.items);
+            items.iter().any(|item| match item {
+                NcItem::Op(op) => begins(*op),
+                NcItem::Code('G', value) => numbers(value, &assigned, id, at, source).is_none_or(|all| {
+                    let mut rows = all.iter().filter_map(|n| source.code('G', n.number, &[]));
+                    rows.any(|row| begins(row.op))
+                }),
+                _ => false,
+            })
+        })
+    })
+}
+
+/// Waits in a block; `waited` tells whether nothing moved since the last wait, `limits` how the target waits.
+fn look(block: &mut Block, waited: &mut bool, limits: bool) -> bool {
     let mut changed = false;
     let mut out = Stmts::with_capacity(block.stmts.len());
     for stmt in std::mem::take(&mut block.stmts) {
         let stands = stmt.site.skip.is_none();
-        if !*waited && is_early(&stmt.kind) {
-            out.push(wait(&stmt.site));
+        if !*waited && is_early(&stmt.kind, limits) {
+            wait(&stmt.site, limits, &mut out);
             // One that may be skipped is no wait for what comes after it.
             (*waited, changed) = (stands, true);
         }
@@ -74,28 +129,39 @@ fn look(block: &mut Block, waited: &mut bool) -> bool {
         out.push(stmt);
     }
     let mut early = false;
-    block.term.kind.exprs(&mut |e| early |= reads(e));
+    block.term.kind.exprs(&mut |e| early |= reads(e, limits));
     if early && !*waited {
-        out.push(wait(&block.term.site));
+        wait(&block.term.site, limits, &mut out);
         (*waited, changed) = (true, true);
     }
     block.stmts = out;
     changed
 }
 
-fn is_early(kind: &StmtKind) -> bool {
-    let mut early = matches!(kind.target(), Some(Place::System(Sys::Output | Sys::OutputInverted, _)));
-    kind.exprs(&mut |e| early |= reads(e));
+fn is_early(kind: &StmtKind, limits: bool) -> bool {
+    let switches = matches!(kind.target(), Some(Place::System(Sys::Output | Sys::OutputInverted, _)));
+    let mut early = !limits && switches;
+    kind.exprs(&mut |e| early |= reads(e, limits));
     early
 }
 
-fn reads(e: &Expr) -> bool {
+fn reads(e: &Expr, limits: bool) -> bool {
     let mut found = false;
-    e.walk(&mut |e| found |= matches!(e, Expr::System(state, _) if state.is_changed_by_moves()));
+    e.walk(&mut |e| {
+        found |= match e {
+            Expr::System(state, _) if limits => state.is_read_early(),
+            Expr::System(state, _) => state.is_changed_by_moves(),
+            _ => false,
+        }
+    });
     found
 }
 
-fn wait(site: &SourceInfo) -> Stmt {
+fn wait(site: &SourceInfo, limits: bool, out: &mut Stmts) {
     let site = SourceInfo { span: site.span, skip: site.skip, ..SourceInfo::default() };
-    Stmt { kind: StmtKind::Sync, site }
+    if limits {
+        limit(site, true, out);
+    } else {
+        out.push(Stmt { kind: StmtKind::Sync, site });
+    }
 }

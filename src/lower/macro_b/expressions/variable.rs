@@ -199,23 +199,8 @@ impl<'a> Lowering<'a> {
 
     /// A control that reads ahead may see a state before the moves ahead of it are done.
     fn early(&mut self, state: Sys, span: Span) {
-        let moving = matches!(
-            state,
-            Sys::MachinePosition
-                | Sys::WorkPosition
-                | Sys::SkipPosition
-                | Sys::Input
-                | Sys::InputWord
-                | Sys::Analog
-                | Sys::TimerMs
-                | Sys::TimerHours
-                | Sys::CycleSeconds
-                | Sys::SpindleActual
-                | Sys::Act
-                | Sys::Output
-                | Sys::OutputWord
-        );
-        let early = moving && !self.lookahead_limited && self.control.is(Question::LookaheadRunsEarly);
+        let early =
+            state.is_read_early() && !self.lookahead_limited && self.control.is(Question::LookaheadRunsEarly);
         if !early || self.builder.has_waited() || !self.codes.tell_early() {
             return;
         }
