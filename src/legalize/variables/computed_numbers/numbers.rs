@@ -5,7 +5,7 @@ use super::alike::{Run, compared};
 use super::meaning::{Meaning, meaning};
 use super::shift::walks;
 use crate::canon::Sys;
-use crate::dialect::Control;
+use crate::dialect::{Control, SystemVariable};
 use crate::ir::analysis;
 use crate::ir::eval::whole;
 use crate::ir::{Expr, constant_part};
@@ -114,6 +114,8 @@ impl<'c> Numbers<'c> {
         let behind = start.saturating_add(1);
         let first = match (self.begins(start), self.begins(behind)) {
             (None, None) => return Finding::Other(start),
+            // The source has no such run.
+            (Some(false), None) if self.ends_table(start) => return Finding::Other(behind),
             (None, _) | (Some(false), Some(true)) => behind,
             _ => start,
         };
@@ -151,6 +153,13 @@ impl<'c> Numbers<'c> {
             return Some(row.first == number);
         }
         self.source.numbered_state(number).map(|(.., row)| row.first == Some(number))
+    }
+
+    /// True for the last number of a table of the system's.
+    fn ends_table(&self, number: u32) -> bool {
+        let is_last = |(_, _, row): (Sys, Vec<u32>, &SystemVariable)| row.last() == Some(number);
+        self.source.numbered_class(number).is_none()
+            && self.source.numbered_state(number).is_some_and(is_last)
     }
 
     /// The run of a state as far as the target has it at one distance.
