@@ -149,7 +149,14 @@ fn look(
                 // What nobody can have put in force where it is read is none of them.
                 let never = |n: &Number| {
                     let row = source.code(*letter, n.number, &[]);
-                    n.read && differs(n) && row.is_some_and(|row| !in_force.may_find(index, row.op))
+                    // Nor what the target has not at all: no program can put it in force there.
+                    let lacks = |op: Op| {
+                        target.code(*letter, n.number, &[]).is_none()
+                            && target.code_for(op, &BTreeMap::new()).is_none()
+                    };
+                    n.read
+                        && differs(n)
+                        && row.is_some_and(|row| lacks(row.op) || !in_force.may_find(index, row.op))
                 };
                 numbers.iter_mut().for_each(|numbers| numbers.retain(|number| !never(number)));
                 if let Some(finding) = check(*letter, numbers, source, target) {

@@ -4,12 +4,12 @@
 //! in the words of the machine and not of a table.
 
 use crate::canon::Op;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{Program, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The operations that a control has.
 fn had<'c>(context: &'c Context<'_>) -> &'c BTreeSet<Op> {
@@ -51,15 +51,30 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         let meaning = op.meaning().trim().trim_end_matches('.');
         let what = format!("{} has no code for this ({op}): {meaning}", target.title);
         let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+        let stand_in = stand_in(op, context.source);
         context.add(
             index,
-            match help(op) {
-                Some(help) => finding.with_help(help),
-                None => finding,
+            match (help(op), stand_in) {
+                (Some(help), _) => finding.with_help(help),
+                (None, Some((code, help))) => {
+                    finding.with_help(help).asking_for(Asks::Code { code: code.into(), op: None })
+                }
+                (None, None) => finding,
             },
         );
     }
     false
+}
+
+/// The source's code for a place that every shop sets as it likes: only the shop knows what stands for it on the other machine.
+fn stand_in(op: Op, source: &Control) -> Option<(String, String)> {
+    let row = (op == Op::Reference2).then(|| source.code_for(op, &BTreeMap::new()))??;
+    let code = row.code.split(' ').next().unwrap_or_default().to_owned();
+    let help = format!(
+        "say what goes to that place on the target: [[site]] with code = \"{code}\", a text, and a name that the code of \
+         the target's builder has too, or target, or do = \"omit\" or \"stop\""
+    );
+    Some((code, help))
 }
 
 const LEADS: &str = "cut this thread on a machine that has the code. Threads of one lead each, block after block, only come near it: if that is \
