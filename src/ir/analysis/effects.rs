@@ -3,7 +3,7 @@
 use super::call_graph::CallGraph;
 use super::set::VarSet;
 use crate::canon::Op;
-use crate::ir::{Bank, Call, Callee, Class, Expr, Module, Nc, Place, StmtKind, TermKind, Var};
+use crate::ir::{Bank, Call, Callee, Class, Expr, Module, Nc, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use foldhash::HashMap;
 use std::collections::BTreeSet;
@@ -67,6 +67,8 @@ pub struct Summaries {
     /// By code outside the library, which may see its caller's locals too.
     unknown: Vars,
     come_back: bool,
+    /// True where some program begins a call at each move: then any program with moves calls.
+    calls_at_moves: bool,
 }
 
 /// Variables of a callee as its caller sees them: the locals of a level of its own are not among them.
@@ -196,6 +198,12 @@ impl Summaries {
             unknown: everything.clone().without(Class::Temp),
             everything,
             come_back: super::may_come_back(module),
+            calls_at_moves: module
+                .programs
+                .iter()
+                .flat_map(|p| &p.blocks)
+                .flat_map(|b| &b.stmts)
+                .any(is_modal),
         };
         let graph = Graph::of(module, &mut out);
         out.spread(&graph);
@@ -240,6 +248,24 @@ impl Summaries {
     pub fn come_back(&self) -> bool {
         self.come_back
     }
+
+    /// The same for one program: one that calls nothing is never come back to.
+    pub fn come_back_to(&self, program: &Program) -> bool {
+        self.come_back && (self.calls_at_moves || comes_back(program))
+    }
+}
+
+fn is_modal(stmt: &Stmt) -> bool {
+    matches!(stmt.kind, StmtKind::ModalCall(_))
+}
+
+/// True for a program that calls another one, or that returns to a number by itself.
+fn comes_back(program: &Program) -> bool {
+    program.blocks.iter().any(|block| match &block.term.kind {
+        TermKind::Call { call, .. } => !matches!(call.callee, Callee::Block(_)),
+        TermKind::Return { to } => to.is_some(),
+        _ => false,
+    })
 }
 
 /// Who calls whom, modal calls as one more program that everyone with NC blocks calls.

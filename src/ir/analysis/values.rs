@@ -70,7 +70,7 @@ impl<'s> Assigned<'s> {
 
     fn open(&self) -> BTreeSet<BlockId> {
         let mut open: BTreeSet<BlockId> = entries(self.program).chain([BlockId(0)]).collect();
-        if self.summaries.come_back() {
+        if self.summaries.come_back_to(self.program) {
             open.extend(labelled(self.program));
         }
         open

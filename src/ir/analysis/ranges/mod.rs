@@ -79,7 +79,7 @@ impl Analysis for Rules<'_> {
     const DIRECTION: Direction = Direction::Forward;
 
     fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, State)> {
-        let come_back = labelled(self.program).filter(|_| self.summaries.come_back());
+        let come_back = labelled(self.program).filter(|_| self.summaries.come_back_to(self.program));
         let all: BTreeSet<BlockId> = cfg.roots().iter().copied().chain(come_back).collect();
         all.into_iter().map(|id| (id, vec![Values::ANY; self.places.len()])).collect()
     }
