@@ -13,10 +13,12 @@ use crate::canon::{Op, Sys};
 use crate::dialect::{Control, Machine, Question};
 use crate::ir::analysis::{Assigned, Cfg, Summaries, may_come_back, modal_bodies};
 use crate::ir::{
-    Block, BlockId, Expr, Module, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
+    Block, BlockId, Call, Callee, Expr, Module, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts,
+    TermKind,
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
+use foldhash::HashMap;
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,7 +52,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         true => {
             let summaries = context.summaries(module);
             let source = context.source;
-            module.programs.iter().map(|program| compensates(program, &summaries, source)).collect()
+            let begin = module.programs.iter().map(|program| compensates(program, &summaries, source));
+            in_touch(module, begin.collect())
         }
         false => Vec::new(),
     };
@@ -107,6 +110,56 @@ fn compensates(program: &Program, summaries: &Summaries, source: &Control) -> bo
             })
         })
     })
+}
+
+/// Those that call one of these programs, or that one of them calls, through others too: compensation is in force there as well.
+fn in_touch(module: &Module, mut all: Vec<bool>) -> Vec<bool> {
+    if !all.contains(&true) {
+        return all;
+    }
+    let numbered = module.programs.iter().enumerate();
+    let named: HashMap<_, _> = numbered.filter_map(|(at, p)| Some((p.name.as_ref()?, at))).collect();
+    let mut touch: Vec<Vec<usize>> = vec![Vec::new(); all.len()];
+    let mut anyone = false;
+    for (caller, program) in module.programs.iter().enumerate() {
+        for call in program.blocks.iter().flat_map(calls) {
+            match &call.callee {
+                Callee::Program(name) => {
+                    if let Some(callee) = named.get(name) {
+                        touch[caller].push(*callee);
+                        touch[*callee].push(caller);
+                    }
+                }
+                Callee::Block(_) | Callee::Cycle(_) => {}
+                Callee::Computed(_) => anyone = true,
+            }
+        }
+    }
+    if anyone {
+        return vec![true; all.len()];
+    }
+    let mut left: Vec<usize> = (0..all.len()).filter(|at| all[*at]).collect();
+    while let Some(at) = left.pop() {
+        for other in &touch[at] {
+            if !std::mem::replace(&mut all[*other], true) {
+                left.push(*other);
+            }
+        }
+    }
+    all
+}
+
+/// The calls of a block, those that its moves make too.
+fn calls(block: &Block) -> impl Iterator<Item = &Call> {
+    let modal = block.stmts.iter().filter_map(|stmt| match &stmt.kind {
+        StmtKind::ModalCall(call) => Some(&**call),
+        _ => None,
+    });
+    let own = match &block.term.kind {
+        TermKind::Call { call, .. } => Some(call),
+        _ => None,
+    };
+    modal.chain(own.into_iter().map(|call| &**call))
 }
 
 /// Waits in a block; `waited` tells whether nothing moved since the last wait, `limits` how the target waits.
