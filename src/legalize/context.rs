@@ -89,8 +89,7 @@ pub struct Copied {
 
 #[derive(Debug, Default)]
 struct Findings {
-    /// With the program of each, in the order they were found. A list never grows: one for each program, grown as it
-    /// gets more, takes twice the room.
+    /// With the program of each, in the order they were found. A list never grows: grown ones take twice the room.
     lists: Vec<Vec<(u32, Diagnostic)>>,
     /// By program, the numbers of what was said once, in their order.
     said: Vec<Vec<u32>>,
@@ -193,11 +192,6 @@ impl<'a> Context<'a> {
             rested,
             facts,
         }
-    }
-
-    /// Notes that in a program every read waits until the moves before it are done.
-    pub(super) fn wait_for_moves(&mut self, index: usize) {
-        self.waiting.extend(self.origins.get(index));
     }
 
     /// True where both controls are known to give one answer, or have what is known by one row of a base.
@@ -313,8 +307,7 @@ impl<'a> Context<'a> {
         diagnostics.into_iter().for_each(|diagnostic| self.findings.push(origin, diagnostic));
     }
 
-    /// Adds a finding unless the program has one about the same `fact` already: what
-    /// a reviewer must check once is said once.
+    /// Adds a finding unless the program has one about the same `fact`: what a reviewer must check once is said once.
     pub fn add_once(&mut self, program: usize, fact: &str, diagnostic: Diagnostic) {
         let origin = self.origins.get(program).copied().unwrap_or(program);
         if self.findings.say(origin, fact) {

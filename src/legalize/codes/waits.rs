@@ -61,7 +61,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     for (index, program) in module.programs.iter_mut().enumerate() {
         match compensates.get(index) {
             Some(true) => continue,
-            Some(false) => context.wait_for_moves(index),
+            Some(false) => context.waiting.extend(context.origins.get(index)),
             None => {}
         }
         changed |= hold(program, come_back, limits);

@@ -276,13 +276,9 @@ fn gives_arguments(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
 }
 
 /// What a code means; none inside where its number is computed, and none at all for a word that is no code.
-#[allow(clippy::option_option)]
 fn op(side: &ProgramTexts<'_>, word: &Word) -> Option<Option<Op>> {
-    let is_code = matches!(word.letter, 'G' | 'M');
-    is_code.then(|| match number(word) {
-        Some(number) => side.control.code(word.letter, number, &[]).map(|row| row.op).or(Some(Op::Builder)),
-        None => None,
-    })
+    let known = |number| side.control.code(word.letter, number, &[]).map_or(Op::Builder, |row| row.op);
+    matches!(word.letter, 'G' | 'M').then(|| number(word).map(known))
 }
 
 /// The words of a block that stand under no condition.
