@@ -22,10 +22,9 @@ new = \"out\"
 
 const NEW: &str = "dialect = \"haas\"\n";
 
-/// A program that is for review: a variable that the machine keeps (MG0404), and a place that is read early (MG0314). It
-/// calls O9000, which calls O9001.
-const ASKS: &str =
-    "%\nO2000\nG20 G17 G90 G40 G80 G94 G54\nG0 X#100\nG31 Z-1. F5.\nG0 Z#5063\nG65 P9000 A1.\nM30\n%\n";
+/// A program that is for review: a variable that the machine keeps (MG0404), and a place that is read early (MG0314), since it
+/// compensates and the machine cannot be told to wait. It calls O9000, which calls O9001.
+const ASKS: &str = "%\nO2000\nG20 G17 G90 G40 G80 G94 G54\nG0 X#100\nG31 Z-1. F5.\nG0 Z#5063\nG41 D1 G1 Y3. F5.\nG40 Y4.\nG65 P9000 A1.\nM30\n%\n";
 
 const CALLED: &str = "%\nO9000\nG0 Y#1\nM98 P9001\nM99\n%\n";
 const BELOW: &str = "%\nO9001\nG0 Y2.\nM99\n%\n";
