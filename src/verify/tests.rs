@@ -365,19 +365,19 @@ fn ways_that_constants_exclude_are_not_missed() {
     let alarm = "IF[#100GT1]THEN#3000=1(HIGH)\n";
     assert_eq!(ways(&format!("O1\n#100=#0\n{alarm}IF[#100EQ#0]GOTO5(NONE)\nG0X1.\nN5M30\n")), (2, 2, 0));
     assert_eq!(ways("O1\n#100=FIX[#101]\nIF[#100EQ#0]GOTO5\nG0X1.\nN5M30\n"), (1, 1, 0));
-    // What is not shown: a jump comes in between, a call, a subscript that is computed, a condition before it.
-    for between in ["N3", "G65P2", "#[#101]=1", "IF[#101GT5]THEN#100=-1", "WHILE[#101GT5]DO1\nEND1", "G0X1."]
-    {
+    // What a condition writes may be either: 1 and 6000 go one way, -1 the other.
+    for (value, all) in [("1", (3, 3, 0)), ("-1", (4, 4, 0))] {
+        let set = format!("#100=6000\nIF[#101GT5]THEN#100={value}\n");
+        assert_eq!(ways(&format!("O1\n{set}IF[#100GE0]GOTO5\nG0X2.\nN5M30\n")), all);
+    }
+    // What is not shown: a jump comes in between, a call, a subscript that is computed, a loop.
+    for between in ["N3", "G65P2", "#[#101]=1", "WHILE[#101GT5]DO1\nEND1", "G0X1."] {
         let program = format!("O1\n#100=6000\n{between}\nIF[#100GE0]GOTO5\nG0X2.\nN5M30\nO2\nM99\n");
         let parsed = programs(("fanuc", &program), ("fanuc", &program), &[]);
         let missed = parsed[0].not_reached.iter().filter(|way| way.text.contains("GE0")).count();
         // Nor with the constant edited, where that is at the head.
-        let edited = !parsed[0].edits.is_empty();
-        assert!(
-            missed > 0 || edited || between.contains("#101]=1"),
-            "{between}: {:#?}",
-            parsed[0].not_reached
-        );
+        let shown = missed > 0 || !parsed[0].edits.is_empty() || between.contains("#101]=1");
+        assert!(shown, "{between}: {:#?}", parsed[0].not_reached);
     }
 }
 

@@ -194,7 +194,7 @@ fn programs_of_one_file_have_their_own_answers() {
     shop.write("programs/asks.nc", file(CALLED, ASKS, &other).as_bytes());
     std::fs::remove_file(shop.path("programs/called.nc")).unwrap();
     let run = shop.run("accept --all --who Ann");
-    assert!(run.out.contains("programs/asks.nc O2001, shop to new: MG0314, line 17: "), "{}", run.out);
+    assert!(run.out.contains("programs/asks.nc O2001, shop to new: MG0314, line 19: "), "{}", run.out);
     let both = "2 accepted, 0 for review";
     assert!(summary(&shop).contains(both), "{}", summary(&shop));
     // A line more in the last program is the first one's no matter.

@@ -44,11 +44,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     // Programs start without compensation: only what one begins may be in force.
     entry.start_in(Op::RadiusOff);
     let facts = if compensates { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
+    // The empty blocks after a limit are there for it.
+    let mut is_dropped = false;
     replace_statements(module, &facts, |index, state, stmt, out| {
         if compensates {
             state.step(&stmt);
         }
         let span = stmt.site.span;
+        is_dropped &= is_empty(&stmt);
+        if is_dropped {
+            return;
+        }
         match stmt.kind {
             StmtKind::Sync if !waits && stops && early && holds(out) => {
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
@@ -85,6 +91,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     told.assuming(Predicate::Substitute(Op::LimitLookahead)),
                 );
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
+                is_dropped = true;
             }
             kind => out.push(Stmt { kind, site: stmt.site }),
         }
@@ -99,6 +106,12 @@ const HELD: &str = "the limit on reading ahead is dropped: the target has none. 
 
 const UNREAD: &str = "the limit on reading ahead is dropped: the target has none, and nothing in this program reads or writes what reading \
      ahead could change";
+
+/// True for a block without a word, a number or a comment.
+fn is_empty(stmt: &Stmt) -> bool {
+    let site = &stmt.site;
+    matches!(stmt.kind, StmtKind::Comment) && site.comments.is_empty() && !site.sequence.is_some()
+}
 
 /// True for a program that limits how far the control reads ahead.
 fn is_limited(program: &Program) -> bool {
