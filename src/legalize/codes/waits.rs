@@ -11,10 +11,9 @@ use super::by_number::numbers;
 use super::lookahead::limit;
 use crate::canon::{Op, Sys};
 use crate::dialect::{Control, Machine, Question};
-use crate::ir::analysis::{Assigned, Cfg, Summaries, may_come_back, modal_bodies};
+use crate::ir::analysis::{Assigned, Cfg, Summaries, calls_of, may_come_back, modal_bodies};
 use crate::ir::{
-    Block, BlockId, Call, Callee, Expr, Module, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts,
-    TermKind,
+    Block, BlockId, Callee, Expr, Module, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
@@ -122,7 +121,7 @@ fn in_touch(module: &Module, mut all: Vec<bool>) -> Vec<bool> {
     let mut touch: Vec<Vec<usize>> = vec![Vec::new(); all.len()];
     let mut anyone = false;
     for (caller, program) in module.programs.iter().enumerate() {
-        for call in program.blocks.iter().flat_map(calls) {
+        for call in program.blocks.iter().flat_map(calls_of) {
             match &call.callee {
                 Callee::Program(name) => {
                     if let Some(callee) = named.get(name) {
@@ -147,19 +146,6 @@ fn in_touch(module: &Module, mut all: Vec<bool>) -> Vec<bool> {
         }
     }
     all
-}
-
-/// The calls of a block, those that its moves make too.
-fn calls(block: &Block) -> impl Iterator<Item = &Call> {
-    let modal = block.stmts.iter().filter_map(|stmt| match &stmt.kind {
-        StmtKind::ModalCall(call) => Some(&**call),
-        _ => None,
-    });
-    let own = match &block.term.kind {
-        TermKind::Call { call, .. } => Some(call),
-        _ => None,
-    };
-    modal.chain(own.into_iter().map(|call| &**call))
 }
 
 /// Waits in a block; `waited` tells whether nothing moved since the last wait, `limits` how the target waits.

@@ -1,8 +1,9 @@
 //! Pecks that are told the first depth, by how much each later one is less, and the least one.
 //!
 //! Law: where the first is the least, or later ones are no less, all are as deep as the first, and Q tells them so on a target whose
-//! code takes no other words. Side conditions: the block begins its cycle and tells it no Q, and the numbers are known. What is not
-//! even is refused later, as words that the target's code does not take. Counter-example: `G83 I5. J1. K2.`, whose pecks are 5, 4, 3.
+//! code takes no other words. Side conditions: the block begins its cycle and tells it no Q, the numbers are known, and no block of the
+//! library tells a cycle in force other pecks. What is not even is refused later, as words that the target's code does not take.
+//! Counter-examples: `G83 I5. J1. K2.`, whose pecks are 5, 4, 3; `X6. Q1.` after a cycle that goes on by its I.
 
 use crate::canon::{Op, Role};
 use crate::dialect::Control;
@@ -18,11 +19,15 @@ pub fn concerns(features: &Features) -> bool {
 
 /// Tells them by Q; true where something changed.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let all = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    if all.filter_map(|stmt| stmt.kind.nc()).any(tells_later) {
+        return false;
+    }
     let mut changed = false;
     for stmt in module.programs.iter_mut().flat_map(|program| &mut program.blocks).flat_map(|b| &mut b.stmts)
     {
         let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-        let cycle = nc.ops().find(|op| matches!(op, Op::CyclePeck | Op::CycleChipBreak));
+        let cycle = nc.ops().find(|op| pecks(*op));
         let Some(depth) = cycle.filter(|op| by_depth(context.target, *op)).and_then(|_| even(nc)) else {
             continue;
         };
@@ -33,6 +38,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         changed = true;
     }
     changed
+}
+
+fn pecks(op: Op) -> bool {
+    matches!(op, Op::CyclePeck | Op::CycleChipBreak)
+}
+
+/// True for a block that tells a cycle in force how deep its pecks are.
+fn tells_later(nc: &Nc) -> bool {
+    let depths = [Role::PeckFirst, Role::PeckLess, Role::PeckLeast, Role::CycleQ];
+    !nc.ops().any(Op::is_cycle) && depths.iter().any(|role| nc.word(*role).is_some())
 }
 
 /// True if the control tells this cycle one depth of all pecks, and cannot tell it a first one.

@@ -1,8 +1,9 @@
 //! M codes and tool words in the drilling blocks of a lathe.
 //!
-//! Law: none, but that one control does it alike on both machines. Such a code acts between the position and the hole, as the clamp of C does, and the control undoes it after the hole by a code
-//! that only the builder knows: nothing on another machine is sure to be the same. So it is refused. Counter-example: `C90. M31`, where
-//! M31 clamps the spindle before the drill goes down and M32 lets it go after.
+//! Law: none. Such a code acts between the position and the hole, as the clamp of C does, and the control undoes it after the hole by a code
+//! that only the builder knows: on another control nothing is sure to be the same, so it is refused. Between two machines of one control the
+//! block stays as it is, and what the builder's code does there is asked as anywhere else. Counter-example: `C90. M31`, where M31 clamps the
+//! spindle before the drill goes down and M32 lets it go after.
 
 use super::holes;
 use crate::canon::{Op, Role};
@@ -10,7 +11,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, NcItem};
 use crate::legalize::Context;
 
-/// Refuses them, but between machines of one control: there the code acts alike, whatever its builder made of it.
+/// Refuses them, unless both machines have one control.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     if context.source.name() == context.target.name() {
         return;

@@ -3,7 +3,7 @@
 //! Law: under the code of the rapid both go there by rapid. Under another code the source may feed, and the target's code never does.
 //! The way from where the machine stands to a place of the machine is the difference of the two, whatever offsets and lengths are in
 //! force, so an increment by it feeds to the same place on the same line. The machine has to stand when its place is read.
-//! Side conditions, each refused: G1 and G90 are known to be in force; the block names X, Y or Z alone, none of them may be vacant; no
+//! Side conditions, each refused: G1 and G90 are known to be in force; the block names X, Y or Z alone, and none of them can be vacant; no
 //! compensation, cycle, mirror, scaling or rotation and no feed in inverse time can be in force; no length is taken up or ended in it, and
 //! after the last length something went to a place along Z: an increment may make up for one that has not counted yet.
 //! Where it is not known which code is in force a reviewer has to look. Counter-example: `G53 G1 Z-5. F20.`, a crash where it is rapid.
@@ -119,7 +119,7 @@ fn counts(before: &Stmts) -> bool {
     false
 }
 
-/// The words of an increment that goes to the same place; none where a side condition fails.
+/// The words of an increment that goes to the same place, if all side conditions hold.
 fn increments(nc: &Nc, state: &Modal, library: &Library) -> Option<Vec<NcItem>> {
     let is = |group, op| state.op(group) == Some(op);
     let plain = is(Group::Motion, Op::Linear) && is(Group::Distance, Op::Absolute) && !library.shaped;

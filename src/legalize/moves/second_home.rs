@@ -27,6 +27,11 @@ fn setting(role: Role) -> Option<&'static str> {
     }
 }
 
+/// The place that a profile gives, if it is a number.
+fn stated(name: &str, target: &Control) -> Option<f64> {
+    target.setting(name)?.parse().ok().filter(|place: &f64| place.is_finite())
+}
+
 /// Why a return stays, and the settings that are missing.
 struct Stays(&'static str, &'static str, Vec<&'static str>);
 
@@ -79,7 +84,7 @@ fn moves(nc: &Nc, before: &Modal, source: &Control, target: &Control) -> Result<
     let missing: Vec<&'static str> = axes
         .iter()
         .filter_map(|(role, _)| setting(*role))
-        .filter(|name| target.setting(name).is_none())
+        .filter(|name| stated(name, target).is_none())
         .collect();
     if !missing.is_empty() {
         return Err(Stays(MISSING, MISSING_HELP, missing));
@@ -103,9 +108,8 @@ fn moves(nc: &Nc, before: &Modal, source: &Control, target: &Control) -> Result<
     }
     for (role, _) in &axes {
         let whole = if matches!(role, Role::X | Role::StepX) { Role::X } else { Role::Z };
-        let stated =
-            setting(*role).and_then(|name| target.setting(name)).and_then(|value| value.parse().ok());
-        home.push(NcItem::Word(whole, Expr::Number(stated.ok_or(Stays(MISSING, MISSING_HELP, Vec::new()))?)));
+        let place = setting(*role).and_then(|name| stated(name, target));
+        home.extend(place.map(|place| NcItem::Word(whole, Expr::Number(place))));
     }
     out.push(home);
     let again = before.op(Group::Motion).filter(|op| !stays && *op != Op::Rapid);
@@ -122,7 +126,7 @@ fn axis(item: &NcItem) -> Option<(Role, Expr)> {
 
 const OTHER: &str = "a return to another reference position than the second, of other axes than X and Z, or under G91: the target has no code for it";
 const OTHER_HELP: &str = "write the place as a move in machine coordinates (G53)";
-const MISSING: &str = "the target has no code for the second reference position, and its profile does not say which place stands for it";
+const MISSING: &str = "the target has no code for the second reference position, and its profile gives no number for the place that stands for it";
 const MISSING_HELP: &str = "write the place in machine coordinates into the target's profile, under [settings]: second_home_x and second_home_z";
 const UNIT: &str =
     "the second home position is in the unit of the target's profile, and the program is in the other one";

@@ -159,7 +159,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What stands behind a condition may be done or not.
+    /// What a condition guards may be done or not.
     fn branch(&mut self, condition: &Expr, body: &[Item], held: Option<bool>) {
         let before = self.known.clone();
         if held.is_none() {

@@ -111,12 +111,12 @@ impl<'c> Numbers<'c> {
 
     fn look_up(&self, start: u32) -> Finding {
         // People count from 1: `#[2400+#1]` means the run from #2401, though #2400 ends another.
-        let behind = start.saturating_add(1);
-        let first = match (self.begins(start), self.begins(behind)) {
+        let next = start.saturating_add(1);
+        let first = match (self.begins(start), self.begins(next)) {
             (None, None) => return Finding::Other(start),
             // The source has no such run.
-            (Some(false), None) if self.ends_table(start) => return Finding::Other(behind),
-            (None, _) | (Some(false), Some(true)) => behind,
+            (Some(false), None) if self.ends_table(start) => return Finding::Other(next),
+            (None, _) | (Some(false), Some(true)) => next,
             _ => start,
         };
         if self.alike(first) {

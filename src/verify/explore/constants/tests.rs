@@ -92,10 +92,10 @@ fn a_source_is_followed_without_its_literals() {
     assert!(never_of_source(edited).is_empty());
     let alarm = "O1\nIF[#1GT2]GOTO3\n#3000=1(NO)\nIF[#1GT4]GOTO3\nN3M30\n";
     assert_eq!(never_of_source(alarm).len(), 2);
-    // Nothing comes to what stands behind a jump, unless a call comes back to it.
-    let behind = "O1\nG65P2\nGOTO5\nIF[#1GT2]GOTO5\nN3IF[#1GT3]GOTO5\nN5M30\nO2\n";
-    assert_eq!(never_of_source(&format!("{behind}M99\n")).len(), 4);
-    assert_eq!(never_of_source(&format!("{behind}M99P3\n")).len(), 2);
+    // Nothing comes to what stands after a jump, unless a call comes back to it.
+    let after = "O1\nG65P2\nGOTO5\nIF[#1GT2]GOTO5\nN3IF[#1GT3]GOTO5\nN5M30\nO2\n";
+    assert_eq!(never_of_source(&format!("{after}M99\n")).len(), 4);
+    assert_eq!(never_of_source(&format!("{after}M99P3\n")).len(), 2);
 }
 
 #[test]
