@@ -4,6 +4,7 @@
 //! places, and words their numbers, mostly do.
 
 /// Numbers at which programs change what they do.
+#[rustfmt::skip]
 const NUMBERS: &[&str] = &[
     "0", "1", "2", "3", "-1", "10", "28", "40", "43", "49", "53", "54", "65", "66", "67", "68", "69", "81", "83", "90", "91",
     "98", "99", "100", "500", "999", "1000", "2001", "3000", "5041", "9999", ".5", "-.001", "1.", "99999.9999", "#0", "#1",
@@ -11,6 +12,7 @@ const NUMBERS: &[&str] = &[
 ];
 
 /// Words and statements of all dialects, so that one can come where no program of the corpus has it.
+#[rustfmt::skip]
 const BLOCKS: &[&str] = &[
     "G90", "G91", "G20", "G21", "G17", "G18", "G40", "G41 D1", "G43 H1", "G49", "G54", "G80", "G52 X1.", "G92 X0", "G28 Z0",
     "G53 Z0", "G68 X0 Y0 R30.", "G69", "G51 X0 Y0 P2.", "G50", "G10 L2 P1 X1.", "G10 L10 P1 R1.", "G31 Z-1. F10.",

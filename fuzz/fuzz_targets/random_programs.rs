@@ -8,5 +8,12 @@ libfuzzer_sys::fuzz_target!(|choices: &[u8]| {
     macroglot_fuzz::on_one_thread();
     let program = fuzzed(choices);
     let faults = trial::run(&program).faults;
-    assert!(faults.is_empty(), "{} {:?}\n{}-- {}", program.dialect, program.policy, program.text(), faults.join("\n"));
+    assert!(
+        faults.is_empty(),
+        "{} {:?}\n{}-- {}",
+        program.dialect,
+        program.policy,
+        program.text(),
+        faults.join("\n")
+    );
 });
