@@ -1,15 +1,23 @@
 //! Checks of the G and M codes.
 
-use super::CodeMeaning;
 use super::overlay::options_apart;
 use super::reader::{Placed, Reader};
+use super::{Beside, CodeHead, CodeMeaning};
+
+/// A row, and its spelling: each row meets each, so it is read once.
+struct Spelt<'a> {
+    row: &'a CodeMeaning,
+    head: CodeHead,
+    beside: Vec<Beside>,
+}
 
 /// Codes are spelt as codes, stand once, and no operation has two preferred spellings.
 pub(super) fn check(reader: &mut Reader, rows: &[Placed<CodeMeaning>]) {
-    for (at, placed) in rows.iter().enumerate() {
+    let mut earlier: Vec<Spelt<'_>> = Vec::with_capacity(rows.len());
+    for placed in rows {
         let row = &placed.row;
         let place = || placed.place.clone();
-        let (Some(head), Some(_)) = (row.head(), row.beside()) else {
+        let (Some(head), Some(beside)) = (row.head(), row.beside()) else {
             let help = "write a letter and a number, then words: 'G10 L2', 'G17 Q', 'G54.1 P'";
             reader.fault_at(place(), format!("'{}' is not a code", row.code), help);
             continue;
@@ -35,22 +43,25 @@ pub(super) fn check(reader: &mut Reader, rows: &[Placed<CodeMeaning>]) {
         if row.shift.values().flatten().any(|shift| shift.first > shift.last) {
             reader.fault_at(place(), "a shift's range is backwards", "write the smaller number as 'first'");
         }
-        for earlier in rows.iter().take(at).map(|earlier| &earlier.row) {
-            if !together(earlier, row) {
+        let spelt = Spelt { row, head, beside };
+        for other in &earlier {
+            if !together(other.row, row) {
                 continue;
             }
-            if same_code(earlier, row) {
+            if same_code(other, &spelt) {
                 reader.fault_at(
                     place(),
                     format!("{} stands twice", row.code),
                     "keep one row, or say 'machine' or 'when'",
                 );
             }
-            if both_preferred(earlier, row) {
-                let message = format!("{} and {} are both preferred for {}", earlier.code, row.code, row.op);
+            if both_preferred(other.row, row) {
+                let message =
+                    format!("{} and {} are both preferred for {}", other.row.code, row.code, row.op);
                 reader.fault_at(place(), message, "write 'preferred = false' in the one that is only read");
             }
         }
+        earlier.push(spelt);
     }
 }
 
@@ -70,14 +81,14 @@ fn together(a: &CodeMeaning, b: &CodeMeaning) -> bool {
 }
 
 /// True where the codes, or their runs, meet beside the same words.
-fn same_code(a: &CodeMeaning, b: &CodeMeaning) -> bool {
-    let (Some(x), Some(y)) = (a.head(), b.head()) else { return false };
-    if x.letter != y.letter || a.beside() != b.beside() || a.when.is_some() != b.when.is_some() {
+fn same_code(a: &Spelt<'_>, b: &Spelt<'_>) -> bool {
+    let (x, y) = (a.head, b.head);
+    if x.letter != y.letter || a.beside != b.beside || a.row.when.is_some() != b.row.when.is_some() {
         return false;
     }
     let last = |row: &CodeMeaning, first: u32| row.through.map_or(first, |last| last.saturating_mul(1000));
     let whole_steps = x.thousandths % 1000 == y.thousandths % 1000;
-    whole_steps && x.thousandths <= last(b, y.thousandths) && y.thousandths <= last(a, x.thousandths)
+    whole_steps && x.thousandths <= last(b.row, y.thousandths) && y.thousandths <= last(a.row, x.thousandths)
 }
 
 /// True where a writer could not choose between them.

@@ -1,12 +1,12 @@
 //! SARIF, held to the schema of the standard (`tests/sarif/README.md` says where it is from).
 
 use boon::{Compiler, Schemas};
-use serde_sarif::sarif::Sarif;
+use serde_json::Value;
 
 const SCHEMA: &str = include_str!("../sarif/sarif-schema-2.1.0.json");
 
-/// A log that the schema takes, in the types of a library for the format.
-pub fn valid(text: &str) -> Sarif {
+/// A log that the schema takes.
+pub fn valid(text: &str) -> Value {
     let log = serde_json::from_str(text).unwrap();
     let (mut schemas, mut compiler) = (Schemas::new(), Compiler::new());
     compiler.add_resource("sarif.json", serde_json::from_str(SCHEMA).unwrap()).unwrap();
@@ -14,7 +14,7 @@ pub fn valid(text: &str) -> Sarif {
     if let Err(error) = schemas.validate(&log, schema) {
         panic!("{error:#}\n{text}");
     }
-    serde_json::from_value(log).unwrap()
+    log
 }
 
 #[test]
