@@ -90,6 +90,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
             machine.round_in(&across(command, along), trace);
         }
         let mut to = machine.target(&across(command, along));
+        machine.keep_polar(command);
         to[along] = machine.position[along];
         if to[first] != machine.position[first]
             || to[second] != machine.position[second]
@@ -121,6 +122,7 @@ fn place_only(machine: &mut Machine, command: &Command, count: u32, trace: &mut 
     let named = command.axes().any(|(axis, _)| axis != along);
     if count != 0 || named && machine.rules.zero_repeats_moves.ask(trace) {
         let mut to = machine.target(&across(command, along));
+        machine.keep_polar(command);
         to[along] = machine.position[along];
         machine.rapid_to(to, trace);
     }

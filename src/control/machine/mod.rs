@@ -21,6 +21,7 @@ mod motion;
 mod offsets;
 mod outside;
 mod pauses;
+mod polar;
 mod returns;
 mod rigid;
 mod rounding;
@@ -110,7 +111,8 @@ pub struct Machine {
     /// True where the word of the length named it.
     radius_with_length: bool,
     path_mode: Op,
-    polar: bool,
+    /// Polar coordinates in force, and their last words.
+    polar: Option<polar::Words>,
     references: [Axes; 4],
     /// The point that the last return to the reference position went through.
     by_way_of: Option<Axes>,
@@ -173,7 +175,7 @@ impl Machine {
             radius_offset: 0,
             radius_with_length: false,
             path_mode: Op::CuttingMode,
-            polar: false,
+            polar: None,
             references: scenario.reference_positions(),
             by_way_of: None,
             lathe: lathe::Lathe::default(),

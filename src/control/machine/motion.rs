@@ -109,6 +109,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
         }
         machine.fresh_rotation = machine.incremental;
     }
+    machine.polar_matters(command, trace);
     if drills {
         return cycle::run(machine, command, trace).map(|()| false);
     }
@@ -184,6 +185,7 @@ fn once(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(
             machine.feed_to(to, trace);
         }
     }
+    machine.keep_polar(command);
     Ok(())
 }
 
@@ -290,7 +292,7 @@ impl Machine {
 
     /// Machine position that the axis words of a block aim at.
     pub(super) fn target(&self, command: &Command) -> Axes {
-        if self.polar {
+        if self.polar.is_some() {
             return self.polar_target(command);
         }
         let unit = self.unit();
@@ -306,41 +308,6 @@ impl Machine {
         for (axis, value, by_itself) in command.places() {
             let value = if is_rotary(axis) { value } else { value * unit };
             work[axis] = self.by_word(axis, work[axis], (value, by_itself), 0.0);
-        }
-        self.frame.machine(&work)
-    }
-
-    /// Under polar words the first axis of the plane is a distance, the second an angle.
-    fn polar_target(&self, command: &Command) -> Axes {
-        let (first, second, _) = self.plane.axes();
-        let mut work = self.frame.program(&self.position);
-        let mut distance = work[first].hypot(work[second]);
-        let mut angle = work[second].atan2(work[first]).to_degrees();
-        let mut turned = false;
-        for (axis, value) in command.axes() {
-            let length = value * self.unit();
-            if axis == first {
-                distance = if self.incremental { distance + length } else { length };
-                turned = true;
-            } else if axis == second {
-                angle = if self.incremental { angle + value } else { value };
-                turned = true;
-            } else {
-                let value = if is_rotary(axis) { value } else { length };
-                work[axis] = if self.incremental { work[axis] + value } else { value };
-            }
-        }
-        if let Some(value) = command.word(Role::PolarDistance) {
-            distance = value * self.unit();
-            turned = true;
-        }
-        if let Some(value) = command.word(Role::PolarAngle) {
-            angle = value;
-            turned = true;
-        }
-        if turned {
-            let (sin, cos) = super::frame::sin_cos(angle);
-            (work[first], work[second]) = (distance * cos, distance * sin);
         }
         self.frame.machine(&work)
     }

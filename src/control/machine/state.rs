@@ -27,8 +27,8 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
             }
             Op::SurfaceSpeed => machine.surface_speed = true,
             Op::TurnsPerMinute => machine.surface_speed = false,
-            Op::PolarOn => machine.polar = true,
-            Op::PolarOff => machine.polar = false,
+            Op::PolarOn => machine.polar = Some(super::polar::Words::default()),
+            Op::PolarOff => machine.polar = None,
             _ if op.group() == Group::PathMode && machine.path_mode != op => {
                 machine.path_mode = op;
                 trace.push(EventKind::Other { operation: op, code: None });

@@ -87,3 +87,23 @@ fn increments_right_after_a_rotation_turn_about_the_tool() {
     assert!((end[0] - 3.0).abs() < 1e-9 && (end[1] - 1.0).abs() < 1e-9, "{end:?}");
     assert_eq!((doubts(&fanuc(text), increments), doubts(&haas(text), increments)), (false, true));
 }
+
+#[test]
+fn polar_coordinates_count_from_the_zero_and_under_g91_from_the_tool() {
+    // Worked out by hand: 10 at 30 degrees is (8.660, 5); at 30 + 60 it is (0, 10). 4 at 180 from there is (-4, 10).
+    let text = "O1\nG21G90G17\nG0X0Y0Z5.\nG16X10.Y30.\nG91Y60.\nG90Y90.\nG91X4.Y90.\nG90G15X1.Y2.\nM30\n";
+    let run = fanuc(text);
+    let ends = run.events.iter().filter_map(|event| match &event.what {
+        EventKind::Rapid { to, .. } => Some([to.0[0], to.0[1]]),
+        _ => None,
+    });
+    let places: Vec<[f64; 2]> = ends.collect();
+    let wanted = [[0.0, 0.0], [8.66, 5.0], [0.0, 10.0], [-4.0, 10.0], [1.0, 2.0]];
+    assert_eq!(places.len(), wanted.len(), "{places:?}");
+    for (place, wanted) in places.iter().flatten().zip(wanted.iter().flatten()) {
+        assert!((place - wanted).abs() < 1e-9, "{places:?}");
+    }
+    let unsaid = "machine:polar.word.left.out";
+    assert!(!doubts(&run, unsaid));
+    assert!(doubts(&fanuc("O1\nG21G90G17\nG0X0Y0Z5.\nG16Y30.\nM30\n"), unsaid));
+}
