@@ -12,6 +12,7 @@ pub(in crate::legalize) mod machine_moves;
 mod mains;
 pub(in crate::legalize) mod mixed_places;
 pub(in crate::legalize) mod polar;
+pub(in crate::legalize) mod polar_mode;
 pub(in crate::legalize) mod rapid_in_force;
 pub(in crate::legalize) mod rapid_once;
 pub(in crate::legalize) mod reference;

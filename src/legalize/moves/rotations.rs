@@ -292,7 +292,7 @@ fn set(
 }
 
 /// True for what chooses another frame of coordinates, or goes where words do not say.
-fn is_of_frame(op: Op) -> bool {
+pub(super) fn is_of_frame(op: Op) -> bool {
     let group = op.group();
     matches!(group, Group::Plane | Group::WorkOffset | Group::Scaling | Group::Mirror) && op != Op::PlaneXy
         || matches!(
@@ -303,7 +303,7 @@ fn is_of_frame(op: Op) -> bool {
 }
 
 /// True for an expression that reads where the tool is in the coordinates of the program.
-fn reads_position(e: &Expr) -> bool {
+pub(super) fn reads_position(e: &Expr) -> bool {
     use Sys::{AxisPosition, EndPosition, SkipPosition, WorkPosition};
     let mut reads = false;
     e.walk(&mut |part| {

@@ -340,6 +340,7 @@ const CODES: &[Pass] = &[
             "substitutes",
             "machine-codes",
             "polar",
+            "polar-mode",
             "shift",
             "rapid-once",
             "tapping",

@@ -8,8 +8,8 @@ use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     added_angles, bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar,
-    rapid_once, reference, rotary_ways, rotations, second_home, shaped, shift, short_arcs, under_increments,
-    unit_agrees, unit_checks, units, word_rounds,
+    polar_mode, rapid_once, reference, rotary_ways, rotations, second_home, shaped, shift, short_arcs,
+    under_increments, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -33,8 +33,11 @@ pub(super) const MOVES: &[Pass] = &[
         rotary_ways::run,
     )
     .when(rotary_ways::concerns),
+    Pass::rewrites("polar-mode", "polar coordinates become rectangular ones", polar_mode::run)
+        .when(|c, context| c.op(Op::PolarOn) && polar_mode::concerns(context.target)),
     Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
-        .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
+        .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance))
+        .needs(&["polar-mode"]),
     Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
     Pass::reports(
