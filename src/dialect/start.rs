@@ -76,7 +76,7 @@ impl Control {
     fn start_modes(&self, text: &str) -> Result<Vec<StartMode>, (String, String)> {
         let mut found: Vec<StartMode> = Vec::new();
         for word in text.split_whitespace() {
-            let mode = self.start_mode(word)?;
+            let Some(mode) = self.start_mode(word)? else { continue };
             if let Some(other) = found.iter().find(|other| other.op.group() == mode.op.group()) {
                 let message = format!("'{word}' stands beside '{}', and one of them is in force", other.op);
                 return Err((message, "leave one of them out".into()));
@@ -137,7 +137,8 @@ impl Control {
         others.filter(has_it).map(|system| format!("\"{system}\"")).collect()
     }
 
-    fn start_mode(&self, word: &str) -> Result<StartMode, (String, String)> {
+    /// The mode of a code; none if every machine begins in it, as the page of a machine may show it too.
+    fn start_mode(&self, word: &str) -> Result<Option<StartMode>, (String, String)> {
         let mut letters = word.chars();
         let letter = letters.next().map(|letter| letter.to_ascii_uppercase());
         let number: Option<f64> = letters.as_str().parse().ok();
@@ -149,6 +150,9 @@ impl Control {
             (format!("{} has no code {word}", self.dialect.title), "leave it out".to_owned())
         })?;
         let mode = StartMode::of(row);
+        if is_cancelled(mode.op) || mode.op == Op::ReturnInitial && self.machine() == Machine::Mill {
+            return Ok(None);
+        }
         let may = match mode.op.group() {
             Group::Motion => matches!(mode.op, Op::Rapid | Op::Linear),
             Group::WorkOffset => mode.work_offset().is_some_and(|number| number > 0),
@@ -157,10 +161,24 @@ impl Control {
             group => StartMode::GROUPS.contains(&group),
         };
         if may && row.modal != Some(false) {
-            return Ok(mode);
+            return Ok(Some(mode));
         }
         let help =
             "name the unit, absolute or incremental, the plane, the feed mode, G0 or G1, and the work offset";
         Err((format!("'{word}' is nothing that a program begins in"), help.into()))
     }
+}
+
+/// True for the end of something that no program begins in.
+const fn is_cancelled(op: Op) -> bool {
+    matches!(
+        op,
+        Op::RadiusOff
+            | Op::LengthOff
+            | Op::CycleOff
+            | Op::RotateOff
+            | Op::ScaleOff
+            | Op::MirrorOff
+            | Op::PolarOff
+    )
 }

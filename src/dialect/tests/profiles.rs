@@ -207,6 +207,9 @@ fn a_machine_begins_in_what_its_profile_says() {
     assert_eq!(ops, [Op::Absolute, Op::PlaneXy, Op::Inch, Op::SelectWork, Op::Rapid]);
     assert_eq!(control.start()[3].work_offset(), Some(2));
     assert_eq!(control.units(), Some(Units::Inch), "the unit counts where no code says it");
+    // What every mill begins in says nothing new.
+    let more = "dialect = \"fanuc\"\n[start]\ncodes = \"G90 G40 G49 G80 G98 G69\"";
+    assert_eq!(Control::from_profile(more).unwrap().start().len(), 1);
     // Where the holes of a lathe end; in system A they always go back, and G99 is the feed.
     let lathe = |system: &str| {
         let settings = format!("[settings]\ngcode_system = \"{system}\"\n[start]\ncodes = \"G99\"");
@@ -226,7 +229,7 @@ fn a_machine_begins_in_what_its_profile_says() {
     start("G90 G43", "'G43' is nothing that a program begins in");
     start("G2", "'G2' is nothing that a program begins in");
     start("G53", "'G53' is nothing that a program begins in");
-    start("G98", "'G98' is nothing that a program begins in");
+    start("G99", "'G99' is nothing that a program begins in");
     start("ABS", "'ABS' is no code");
     start("G777", "Fanuc Custom Macro B has no code G777");
     wrong(
