@@ -260,10 +260,9 @@ fn a_wheel_installs_and_a_hook_in_python_runs_it() {
     said(&built.unwrap(), "maturin build");
     let wheel = std::fs::read_dir(wheels.path()).unwrap().flatten().map(|entry| entry.path()).next().unwrap();
     let fresh = wheels.path().join("fresh");
-    said(&Command::new("python3").args(["-m", "venv"]).arg(&fresh).output().unwrap(), "venv");
-    let install =
-        Command::new(fresh.join("bin/pip")).args(["install", "--no-index", "--quiet"]).arg(&wheel).output();
-    said(&install.unwrap(), "pip install");
+    let mut pip = Command::new(tools().join("bin/pip"));
+    pip.args(["install", "--no-index", "--quiet", "--prefix"]).arg(&fresh).arg(&wheel);
+    said(&pip.output().unwrap(), "pip install");
     let version = Command::new(fresh.join("bin/macroglot")).arg("--version").output().unwrap();
     assert_eq!(said(&version, "version"), format!("macroglot {}\n", env!("CARGO_PKG_VERSION")));
     let hook = format!(
