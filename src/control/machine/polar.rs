@@ -5,7 +5,7 @@
 
 use super::command::is_rotary;
 use super::{Command, Machine};
-use crate::canon::Role;
+use crate::canon::{Group, Op, Role};
 use crate::control::scenario::Axes;
 use crate::control::trace::Trace;
 use crate::control::words::to_increment;
@@ -89,4 +89,11 @@ impl Machine {
             self.polar = Some(words);
         }
     }
+}
+
+/// True for a code after which the tool may stand elsewhere from the zero than the last words say.
+pub(super) fn ends_words(op: Op) -> bool {
+    matches!(op.group(), Group::WorkOffset | Group::Rotation | Group::Scaling | Group::Mirror)
+        || matches!(op, Op::MachineOnce | Op::LocalShift | Op::SetPosition | Op::WriteWork | Op::Home)
+        || matches!(op, Op::ReferenceReturn | Op::ReferenceFrom | Op::Reference2)
 }

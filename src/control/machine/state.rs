@@ -68,6 +68,9 @@ fn per_inch(machine: &mut Machine, command: &Command, trace: &mut Trace) {
 
 /// Selects and shapes the frame of coordinates.
 pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    if command.ops.iter().any(|op| super::polar::ends_words(*op)) {
+        machine.polar = machine.polar.map(|_| super::polar::Words::default());
+    }
     for &op in &command.ops {
         machine.round_frame(op, command);
         match op {

@@ -11,7 +11,7 @@
 
 mod known;
 
-use super::rotations::{is_of_frame, reads_position};
+use super::rotations::reads_position;
 use super::short_arcs::{other_planes, vacant};
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -211,10 +211,6 @@ impl Move {
     }
 
     fn fault(&self, nc: &Nc) -> Option<&'static str> {
-        let other = |op: Op| {
-            is_of_frame(op) && !matches!(op, Op::PolarOn | Op::PolarOff)
-                || matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home | Op::RotateOn)
-        };
         let arc = [Role::ArcI, Role::ArcJ].iter().any(|role| nc.word(*role).is_some());
         let adds = self.distance == Some(Op::Incremental);
         let own = |item: &NcItem| {
@@ -225,7 +221,7 @@ impl Move {
             () if !self.flat => Some(PLANE),
             () if self.vacant => Some(VACANT),
             () if nc.word(Role::Y).is_some_and(is_bare) => Some(BARE),
-            () if nc.ops().any(other) => Some(BESIDE),
+            () if nc.ops().any(takes_axes) => Some(BESIDE),
             () if arc => Some(CENTRE),
             () if self.distance.is_none() => Some(UNKNOWN),
             () if adds && nc.word(Role::X).is_some() => Some(INCREMENTS),
@@ -319,6 +315,16 @@ impl Move {
             Expr::binary(BinOp::Mul, far.clone(), part)
         })
     }
+}
+
+/// True for a code whose X and Y are no place to go to in polar coordinates.
+fn takes_axes(op: Op) -> bool {
+    use Op::{ArcTangent, Home, Probe, ProbeOther, Reference2, ReferenceCheck, ReferenceReturn, Thread};
+    use Op::{LocalShift, MachineOnce, Pole, ReferenceFrom, RotateOn, SetPosition, StrokeCheckOn, WriteWork};
+    matches!(op.group(), Group::Scaling | Group::Mirror)
+        || matches!(op, LocalShift | SetPosition | WriteWork | MachineOnce | RotateOn | Pole | StrokeCheckOn)
+        || matches!(op, ReferenceReturn | ReferenceFrom | Reference2 | ReferenceCheck | Home)
+        || matches!(op, Probe | ProbeOther | Thread | ArcTangent)
 }
 
 /// True for a number that counts increments.

@@ -5,6 +5,7 @@ use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::Follow;
 use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{Block, BlockId, Expr, Nc, Stmt, StmtKind, Var};
+use crate::legalize::moves::rotations::is_of_frame;
 
 /// More places than this are a slip.
 const MOST: f64 = 1000.0;
@@ -97,6 +98,10 @@ impl Polar {
             *self = Self::On { length: Kept::Unsaid, angle: Kept::Unsaid };
         }
         if let Self::On { length, angle } = self {
+            // The tool may stand elsewhere from the zero than the last words say.
+            if nc.ops().any(moves_otherwise) {
+                (*length, *angle) = (Kept::Unsaid, Kept::Unsaid);
+            }
             if let Some(word) = nc.word(Role::X) {
                 *length = Kept::of(word);
             }
@@ -135,4 +140,10 @@ impl Follow for Rules<'_> {
             *known = Polar::Mixed;
         }
     }
+}
+
+/// True for what chooses another zero, or goes where words do not say.
+pub(super) fn moves_otherwise(op: Op) -> bool {
+    is_of_frame(op) && !matches!(op, Op::PolarOn | Op::PolarOff)
+        || matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home | Op::RotateOn | Op::RotateOff)
 }
