@@ -75,6 +75,8 @@ pub enum Predicate {
     ShortArcs(Vec<Span>),
     /// The arcs of these blocks end as far from their centre as they begin.
     ArcEnds(Vec<Span>),
+    /// The pecks that these blocks tell a drilling cycle are there, and not 0.
+    Pecks(Vec<Span>),
     /// The tools that these blocks change to are whole numbers, and not 0.
     Tools(Vec<Span>),
     /// The target has no such operation: it does something near instead, or nothing, and a person accepts that.
@@ -92,6 +94,7 @@ impl Predicate {
             | Self::Codes { places, .. }
             | Self::ShortArcs(places)
             | Self::ArcEnds(places)
+            | Self::Pecks(places)
             | Self::Tools(places) => Some(places),
             _ => None,
         }
@@ -113,6 +116,7 @@ impl Predicate {
             Self::Setting(..) => "setting",
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
+            Self::Pecks(_) => "pecks",
             Self::Tools(_) => "tools",
             Self::Substitute(_) => "substitute",
             Self::Unseen => "unseen",
@@ -154,7 +158,8 @@ impl Predicate {
             | Self::Start(_)
             | Self::Main
             | Self::Loaded(_)
-            | Self::Setting(..) => Vec::new(),
+            | Self::Setting(..)
+            | Self::Pecks(_) => Vec::new(),
             Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) | Self::Unseen => {
                 Vec::new()
             }

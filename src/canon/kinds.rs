@@ -57,6 +57,11 @@ impl Op {
         }
     }
 
+    /// True for a code that mills a round pocket where the tool stands.
+    pub const fn is_pocket(self) -> bool {
+        matches!(self, Self::PocketCw | Self::PocketCcw)
+    }
+
     /// True for a move along an arc.
     pub const fn is_arc(self) -> bool {
         matches!(self, Self::ArcCw | Self::ArcCcw | Self::ArcTangent)

@@ -265,6 +265,10 @@ super::vocabulary! {
         HolesArc = "holes.arc",
         /// The same at places on a line, the first of them where the tool stands.
         HolesLine = "holes.line",
+        /// Mills a circle, or a pocket in growing circles, clockwise about the place where the tool stands.
+        PocketCw = "pocket.circle.cw",
+        /// The same counter-clockwise.
+        PocketCcw = "pocket.circle.ccw",
         /// A cycle that only this family of controls has; never carried across.
         CycleOther = "cycle.other",
         /// Absolute coordinates.

@@ -101,6 +101,14 @@ super::vocabulary! {
         HolesApart = "holes.apart",
         /// How many holes are on a circle, an arc or a line.
         HolesCount = "holes.count",
+        /// Radius of the first circle of a pocket, or of the only one.
+        PocketFirst = "pocket.first",
+        /// Radius of the last circle of a pocket.
+        PocketLast = "pocket.last",
+        /// By how much each circle of a pocket is larger.
+        PocketStep = "pocket.step",
+        /// How often a pocket is milled, each time deeper.
+        PocketCount = "pocket.count",
         /// Lead of a thread.
         Lead = "lead",
         /// Threads an inch, in place of the lead.

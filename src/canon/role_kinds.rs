@@ -77,6 +77,7 @@ impl Role {
                 | Role::WorkOffset
                 | Role::Repeat
                 | Role::HolesCount
+                | Role::PocketCount
                 | Role::Program
                 | Role::Sequence
                 | Role::CallCount
@@ -174,6 +175,9 @@ impl Role {
                 | Role::PolarDistance
                 | Role::HolesRadius
                 | Role::HolesApart
+                | Role::PocketFirst
+                | Role::PocketLast
+                | Role::PocketStep
                 | Role::OffsetValue
                 | Role::OffsetNose
         )

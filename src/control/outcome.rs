@@ -91,21 +91,16 @@ pub struct Stop {
     /// The limit that calls nest deeper than, as the tables name it, and how many levels it allows.
     #[serde(skip)]
     pub nesting: Option<(&'static str, u32)>,
-    /// True where a jump finds no block with its number: the program stops there for whoever runs it.
+    /// True where the program stops there for whoever runs it, and the target must stop too: a jump finds no block with its
+    /// number, a tool is too large for a pocket.
     #[serde(skip)]
-    pub no_label: bool,
+    pub for_all: bool,
 }
 
 impl Stop {
     /// An alarm of the control itself.
     pub fn alarm(number: &str, text: impl Into<String>) -> Self {
-        Self {
-            number: number.into(),
-            program_number: None,
-            text: text.into(),
-            nesting: None,
-            no_label: false,
-        }
+        Self { number: number.into(), program_number: None, text: text.into(), nesting: None, for_all: false }
     }
 
     /// Calls that nest deeper than a limit of the control.
@@ -115,12 +110,17 @@ impl Stop {
 
     /// A jump to a number that no block has.
     pub fn no_label(number: &str, text: impl Into<String>) -> Self {
-        Self { no_label: true, ..Self::alarm(number, text) }
+        Self { for_all: true, ..Self::alarm(number, text) }
     }
 
-    /// True where the control stops by itself: the program raised no alarm, and no jump of it found its block missing.
+    /// What stops the program for whoever runs it, and no source names.
+    pub fn for_all(text: impl Into<String>) -> Self {
+        Self { for_all: true, ..Self::unnamed(text) }
+    }
+
+    /// True where the control stops by itself: the program raised no alarm, and the target need not stop there.
     pub fn is_of_control(&self) -> bool {
-        self.program_number.is_none() && !self.no_label
+        self.program_number.is_none() && !self.for_all
     }
 
     /// Its number and what is the matter, as people are told.

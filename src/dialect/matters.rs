@@ -14,6 +14,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:corner.elsewhere", "a corner without a cut is left out, and two in one block both count"),
     ("machine:cycle.back.bore", "back boring shifts, dives, shifts back, and feeds up"),
     ("machine:cycle.other", "a drilling cycle of this control alone moves nothing"),
+    ("machine:cycle.peck.missing", "a peck cycle that is told no depth of its pecks drills in one go"),
     ("machine:cycle.shift.direction", "the shift of a boring cycle goes along the plane's first axis"),
     (
         "machine:distance.code.behind.words",
@@ -77,6 +78,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:output.half", "a half that output rounds to its places goes away from 0"),
     ("machine:overflow", "a result that is not a number is an alarm"),
     ("machine:plane", "a plane other than the three leaves the plane as it is"),
+    (
+        "machine:pocket.path",
+        "a round pocket feeds down at its centre, goes out and back along half circles, and mills each circle whole",
+    ),
     ("machine:polar.word.left.out", "a polar word that is left out keeps its last value"),
     ("machine:program.runs.out", "a called program without a return returns after its last block"),
     ("machine:program.without.return", "a called program without a return returns after its last block"),

@@ -33,6 +33,11 @@ impl Control {
         }
     }
 
+    /// True where the machine's profile says that a matter was tried there: [`matters::ALL`].
+    pub fn has_tried(&self, matter: &str) -> bool {
+        self.profile().confirm.iter().any(|fact| fact == matter)
+    }
+
     /// The construct at `span` rests on a fact of this control, named as a machine profile confirms it:
     /// `behaviour:load.sets.condition`.
     pub fn unconfirmed(&self, side: Side, fact: &str, note: Option<&str>, span: Span) -> Diagnostic {

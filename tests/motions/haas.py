@@ -275,6 +275,39 @@ for at in range(3):
 part.rapid(0.0, 0.0)
 part.to("fanuc", "cycles/hole_circles.rs")
 
+part = Milled("pockets", "Round pockets: G13 with I.4 alone, then with K1. and Q.25 (circles of .4, .65, .9 and 1.), then G12 in G91, twice\n"
+                         "deeper by .1. Half circles go out from the centre and back (96-8000, 1999, p. 237; machine:pocket.path). D0 takes\n"
+                         "no radius off.", metric=False)
+part.work(1)
+part.rapid(2.0, 1.5)
+part.rapid(z=0.1)
+
+
+def pocket(cx, cy, radii, turn, f=None):
+    """Half circles from circle to circle along X, on the two sides of the centre in turn."""
+    at, side = cx, 1.0
+    for radius in radii:
+        to = cx + side * radius
+        part.arc(to, cy, ((at + to) / 2.0, cy), turn, f=f)
+        part.arc(to, cy, (cx, cy), turn)
+        at, side, f = to, -side, None
+    part.arc(cx, cy, ((at + cx) / 2.0, cy), turn)
+
+
+part.feed(z=-0.2, f=20.0)
+pocket(2.0, 1.5, [0.4], +1)
+part.feed(z=-0.3, f=10.0)
+pocket(2.0, 1.5, [0.4, 0.65, 0.9, 1.0], +1)
+part.rapid(z=0.1)
+part.rapid(5.0, 1.5)
+part.feed(z=0.0, f=30.0)
+for depth in (-0.1, -0.2):
+    part.feed(z=depth, f=15.0)
+    pocket(5.0, 1.5, [0.5], -1)
+part.feed(6.0, 1.5)
+part.rapid(z=0.1)
+part.to("fanuc", "cycles/pockets.rs", "cycles/pockets/path.rs")
+
 part = Milled("way-back", "G28 goes by (30, 40) to the reference position, and G29 by that point to (50, 60) (manual of 2017, p. 263).",
               metric=True, home=(7.0, 8.0, 0.0))
 part.work(1)

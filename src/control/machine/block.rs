@@ -149,6 +149,8 @@ fn is_done_elsewhere(op: Op) -> bool {
                 | HolesCircle
                 | HolesArc
                 | HolesLine
+                | PocketCw
+                | PocketCcw
                 | TurretIndex
                 | Stop
                 | OptionalStop

@@ -173,6 +173,12 @@ pub(super) fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop>
         trace.push(EventKind::Other { operation: cycle.op, code: None });
         return Ok(());
     }
+    if cycle.pecks_nothing() {
+        if machine.rules.pecks_need_depth {
+            return Err(Stop::alarm("PS0045", "a peck cycle without the depth of its pecks"));
+        }
+        trace.doubt("machine:cycle.peck.missing");
+    }
     let along = machine.plane.axes().2;
     expand::hole(machine, &cycle, (planes, along), trace);
     Ok(())
@@ -237,6 +243,12 @@ impl Cycle {
         self.lead = length(Role::Lead).or(self.lead);
         self.shift =
             (length(Role::CycleI).unwrap_or(self.shift.0), length(Role::CycleJ).unwrap_or(self.shift.1));
+    }
+
+    /// True for pecks that are told no depth.
+    pub(super) fn pecks_nothing(&self) -> bool {
+        let none = |depth: Option<f64>| depth.is_none_or(|depth| depth == 0.0);
+        matches!(self.op, Op::CyclePeck | Op::CycleChipBreak) && none(self.first_peck.or(self.peck))
     }
 
     /// True where a plane was given in the other mode of coordinates than the present one.

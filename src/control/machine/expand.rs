@@ -37,7 +37,8 @@ impl Driver<'_> {
     fn tell(&mut self, cycle: &Cycle) {
         let at = Position(self.machine.position);
         let bottom = self.place(self.planes.bottom)[self.along];
-        self.trace.push(EventKind::Hole { cycle: cycle.op, at, bottom });
+        let op = if cycle.pecks_nothing() { Op::CycleDrill } else { cycle.op };
+        self.trace.push(EventKind::Hole { cycle: op, at, bottom });
     }
 
     /// From the retract plane into the hole, out of it, and on to the initial plane where that is asked for.

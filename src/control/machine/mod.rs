@@ -22,6 +22,7 @@ mod offsets;
 mod outside;
 mod pauses;
 mod polar;
+mod pockets;
 mod returns;
 mod rigid;
 mod rounding;

@@ -3,7 +3,7 @@
 use super::command::is_rotary;
 use super::frame::UnderIncremental;
 use super::tooling::LostBy;
-use super::{Command, Machine, arc, cycle, holes, inverse, lathe, returns};
+use super::{Command, Machine, arc, cycle, holes, inverse, lathe, pockets, returns};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
@@ -81,6 +81,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             Op::HolesCircle | Op::HolesArc | Op::HolesLine => {
                 return holes::run(machine, op, command, trace).map(|()| false);
             }
+            op if op.is_pocket() => return pockets::run(machine, op, command, trace).map(|()| false),
             Op::Threading => return lathe::thread::many(machine, command, trace).map(|()| false),
             Op::ReferenceFrom => {
                 returns::from(machine, command, trace);

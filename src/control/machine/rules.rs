@@ -128,8 +128,9 @@ pub struct Rules {
     pub length_acts_at_once: Fact<bool>,
     /// Increments right after a rotation turn about where the tool is.
     pub first_increments: Fact<()>,
-    /// Drilling cycles run in any plane; else under G17 alone.
     pub cycles_in_any_plane: Fact<bool>,
+    pub pocket_ends_deep: Fact<bool>,
+    pub pecks_need_depth: bool,
     /// The time of a wait is that of the cycle in force too.
     pub dwell_is_of_cycle: Fact<bool>,
     /// Words of a cycle are kept in a block that drills nothing.
@@ -276,6 +277,8 @@ impl Rules {
             first_increments: fact(control, Question::RotationIncrements, only("tool"), ())
                 .or_silent(control, Question::RotationIncrements),
             rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
+            pocket_ends_deep: fact(control, Question::PocketEnds, word("depth", "start"), true),
+            pecks_need_depth: control.is(Question::CyclePeckNeeded),
             cycles_in_any_plane: fact(control, Question::CyclePlane, word("any", "xy"), true)
                 .or_silent(control, Question::CyclePlane),
             dwell_is_of_cycle: fact(

@@ -14,6 +14,8 @@ pub(in crate::legalize) mod hole_circles;
 pub(in crate::legalize) mod hole_moves;
 pub(in crate::legalize) mod inherited_words;
 pub(in crate::legalize) mod lone_words;
+pub(in crate::legalize) mod missing_pecks;
+pub(in crate::legalize) mod pockets;
 pub(in crate::legalize) mod rigid_taps;
 pub(in crate::legalize) mod stored_places;
 pub(in crate::legalize) mod tap_leads;

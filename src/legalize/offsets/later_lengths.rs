@@ -41,10 +41,22 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 fn moved(block: &Block, mut state: Modal) -> Vec<(usize, Option<usize>)> {
     let mut found = Vec::new();
     let mut waits: Option<usize> = None;
+    let mut off: Option<usize> = None;
     for (at, stmt) in block.stmts.iter().enumerate() {
         let before = state.clone();
         state.step(stmt);
         let names = stmt.kind.nc().filter(|nc| names_length(nc));
+        // In the machine's coordinates no length counts: its end may stand there.
+        if let Some(from) = off.take() {
+            match stmt.kind.nc() {
+                Some(nc) if takes_end(nc, &state) && stmt.site.skip.is_none() => {
+                    found.push((from, Some(at)));
+                    waits = waits.filter(|waits| *waits != from);
+                }
+                _ if is_quiet(stmt, &state) => off = Some(from),
+                _ => {}
+            }
+        }
         let takes = stmt.kind.nc().filter(|nc| takes(nc, &state) && stmt.site.skip.is_none());
         if let (Some(from), Some(nc)) = (waits, takes) {
             match names {
@@ -58,6 +70,8 @@ fn moved(block: &Block, mut state: Modal) -> Vec<(usize, Option<usize>)> {
             // What is named anew before it counts was never used.
             found.extend(waits.filter(|_| begins && says_all(nc)).map(|from| (from, None)));
             waits = begins.then_some(at);
+            let ends = nc.has(Op::LengthOff) && nc.word(Role::Z).is_none() && stmt.site.skip.is_none();
+            off = (ends && goes(nc, &state)).then_some(at);
         } else if !is_quiet(stmt, &state) {
             waits = None;
         }
@@ -97,6 +111,17 @@ fn takes(nc: &Nc, after: &Modal) -> bool {
         && straight
         && after.op(Group::Distance) == Some(Op::Absolute)
         && is_plain(nc.items.iter().filter(|item| !is_of_length(item) && !depth(item)), after)
+}
+
+/// True for a move in the machine's coordinates along the axis of the length, which may have the end of a length beside it.
+fn takes_end(nc: &Nc, after: &Modal) -> bool {
+    let own = |item: &&NcItem| matches!(item, NcItem::Op(Op::MachineOnce) | NcItem::Word(Role::Z, _));
+    nc.has(Op::MachineOnce)
+        && nc.word(Role::Z).is_some_and(|value| value.constant().is_some())
+        && !names_length(nc)
+        && stands(after)
+        && after.op(Group::Distance) == Some(Op::Absolute)
+        && is_plain(nc.items.iter().filter(|item| !own(item)), after)
 }
 
 /// True for a statement that is the same whichever length is in force.

@@ -5,7 +5,7 @@ use super::lathe::is_mill;
 use crate::canon::{Op, Role};
 use crate::legalize::codes::{lookahead, waits};
 use crate::legalize::cycles::{
-    cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, hole_moves,
+    cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, hole_moves, missing_pecks,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::operator::alarms;
@@ -52,6 +52,9 @@ pub(super) const CYCLES: &[Pass] = &[
     Pass::edits("even-pecks", "pecks that are all as deep as the first are told by Q", even_pecks::run).when(
         |c, context| is_mill(context) && even_pecks::concerns(c) && !hole_moves::replaces(context.target),
     ),
+    Pass::rewrites("missing-pecks", "peck cycles that are told no pecks drill in one go", missing_pecks::run)
+        .when(|c, context| is_mill(context) && missing_pecks::concerns(c, context))
+        .needs(&["cycle-here", "even-pecks"]),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
         .when(|c, context| {
             let words = cycle_words::ROLES.iter().any(|role| c.role(*role));

@@ -4,7 +4,7 @@ use super::Pass;
 use super::lathe::is_mill;
 use crate::canon::{Op, Role};
 use crate::legalize::assumptions::barred;
-use crate::legalize::cycles::{hole_circles, rigid_taps, tap_leads, tapping, turn_feeds};
+use crate::legalize::cycles::{hole_circles, pockets, rigid_taps, tap_leads, tapping, turn_feeds};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     added_angles, bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar,
@@ -78,6 +78,10 @@ pub(super) const MOVES: &[Pass] = &[
     Pass::edits("hole-circles", "holes on a circle get blocks of their own", hole_circles::run)
         .when(|c, _| hole_circles::concerns(c))
         .needs(&["increments"]),
+    Pass::rewrites("pockets", "round pockets become arcs, less the radius of their tool", pockets::run)
+        .when(|c, _| pockets::concerns(c))
+        .needs(&["increments"])
+        .changes_flow(),
     Pass::edits("word-rounds", "ROUND in words becomes arithmetic", word_rounds::run)
         .when(word_rounds::concerns),
     Pass::rewrites("table-writes", "offset tables are written as state", table_writes::run)

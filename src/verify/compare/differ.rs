@@ -188,8 +188,8 @@ fn contours_differ(ours: &[Leg], theirs: &[Leg], beyond: &mut impl FnMut(f64) ->
         })
 }
 
-/// An alarm of the program's own must be one on the target too, of the same number and text. Of a jump to a number that
-/// no block has the target may say itself what the source's control says: both stop there.
+/// An alarm of the program's own must be one on the target too, of the same number and text. Of what
+/// stops the program for whoever runs it, the target may say itself what the source's control says: both stop there.
 fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'static str> {
     match (source.program_number, target.program_number) {
         (None, None) => None,
@@ -199,7 +199,7 @@ fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'
         (Some(_), Some(_)) => {
             (!say_the_same(&source.text, &target.text, room)).then_some("the alarm's text differs")
         }
-        (None, Some(_)) if source.no_label => None,
+        (None, Some(_)) if source.for_all => None,
         _ => Some("one alarm comes from the program, the other from the control"),
     }
 }

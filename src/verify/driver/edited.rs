@@ -1,6 +1,6 @@
 //! Constants at a program's head that decide where it goes, edited alike on both sides.
 //!
-//! A literal that a main program assigns at its head is what its operator edits. Where it decides a branch, no
+//! A literal that a main program assigns at its head is what its operator edits; those further down are edited after them. Where it decides a branch, no
 //! circumstances go the other way; so both texts are run anew with another literal there. Which literal of the target is
 //! the same one is found without the compiler: it is the first thing that the target's program assigns to the register that
 //! the lock has for the variable, and it has the same value. Ways that the source goes so count where both sides did the
@@ -44,7 +44,12 @@ impl Verifier<'_, '_> {
         let theirs = constants(target, there, false);
         let numbers = inputs(source, self.program, target).numbers;
         let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
-        for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
+        let mut all = constants(source, self.program, true);
+        let head = all.len();
+        // Further down it may be the twin of another one: what parts then says nothing.
+        let further = constants(source, self.program, false).into_iter().filter(|found| !all.contains(found));
+        all.extend(further.collect::<Vec<_>>());
+        for (at, constant) in all.into_iter().enumerate().take(CONSTANTS) {
             let named = names.variable(&constant.name, source.control, target.control);
             let twin = theirs.iter().find(|twin| Some(&twin.name) == named.as_ref());
             let Some(twin) = twin.filter(|twin| twin.value == constant.value) else { continue };
@@ -53,7 +58,7 @@ impl Verifier<'_, '_> {
                     return;
                 }
                 for_target -= usize::from(self.coverage.is_complete());
-                self.edit(there, (&constant, twin), value, &mut steps);
+                self.edit(there, (&constant, twin), (value, at < head), &mut steps);
             }
         }
     }
@@ -63,7 +68,7 @@ impl Verifier<'_, '_> {
         &mut self,
         there: ProgramRef,
         (ours, theirs): (&Constant, &Constant),
-        value: f64,
+        (value, at_head): (f64, bool),
         steps: &mut u64,
     ) {
         let Job { source, target, names, assumptions, effort, spent } = *self.job;
@@ -71,7 +76,7 @@ impl Verifier<'_, '_> {
         let blocks = text.parse(&source.texts());
         let Some(new_source) = source.edited(self.program, &text, text.own(&blocks)) else { return };
         let told = Constant { value, ..ours.clone() };
-        if !constants(&new_source, self.program, true)
+        if !constants(&new_source, self.program, at_head)
             .iter()
             .any(|c| (&c.name, c.value) == (&told.name, value))
         {
@@ -115,6 +120,9 @@ impl Verifier<'_, '_> {
             value,
         };
         if let Some(witness) = &pair.witness {
+            if !at_head {
+                return;
+            }
             let text = format!(
                 "with {value} for {} in line {} and for {} in line {} they differ: {}",
                 edit.variable, edit.line, edit.register, edit.target_line, witness.what
@@ -199,10 +207,12 @@ fn literal(e: &Expr) -> Option<f64> {
 
 /// Values worth a try: what conditions name, and what lies about the constant.
 fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
+    // A step that is no part of its way goes beyond the end of it.
+    let uneven = [0.7, 1.3].map(|by| (constant * by * 1e4).round() / 1e4);
     let about =
         [0.0, 1.0, constant - 1.0, constant + 1.0, constant + 0.5, -constant, constant * 2.0, constant / 2.0];
     let mut seen = BTreeSet::from([(constant + 0.0).to_bits()]);
-    let all = about.into_iter().chain(numbers.iter().copied()).map(|value| value + 0.0);
+    let all = about.into_iter().chain(uneven).chain(numbers.iter().copied()).map(|value| value + 0.0);
     all.filter(|value| seen.insert(value.to_bits())).take(VALUES).collect()
 }
 

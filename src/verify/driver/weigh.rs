@@ -19,7 +19,7 @@ impl Verifier<'_, '_> {
         excuse: Option<String>,
     ) -> Option<(Why, String)> {
         // Where the source's control itself stops the program, the program says nothing.
-        if stops_by_itself(pair.run, difference) && !finds_no_label(pair.run) {
+        if stops_by_itself(pair.run, difference) && !stops_for_all(pair.run) {
             let text = match &pair.run.end {
                 End::Alarm { stop, .. } => stop.told(),
                 _ => String::new(),
@@ -93,7 +93,7 @@ impl Verifier<'_, '_> {
     }
 }
 
-/// True where a jump of the source finds no block with its number: that stops the program, and the target must stop too.
-fn finds_no_label(run: &Run) -> bool {
-    matches!(&run.end, End::Alarm { stop, .. } if stop.no_label)
+/// True where what stops the source stops the program for whoever runs it: the target must stop too.
+fn stops_for_all(run: &Run) -> bool {
+    matches!(&run.end, End::Alarm { stop, .. } if stop.for_all)
 }

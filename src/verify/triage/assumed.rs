@@ -153,6 +153,7 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         Predicate::ArcEnds(places) => arcs(run, of, places, |_, off| {
             (off.abs() > OFF_ARC).then(|| format!("ends an arc {:.4} mm off it", off.abs()))
         }),
+        Predicate::Pecks(places) => pecks(run, of, places),
         Predicate::Tools(places) => tools(run, of, places),
     }
 }
@@ -170,6 +171,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Setting(..)
         | Predicate::ShortArcs(_)
         | Predicate::ArcEnds(_)
+        | Predicate::Pecks(_)
         | Predicate::Tools(_)
         | Predicate::Substitute(_)
         | Predicate::Unseen
@@ -304,6 +306,27 @@ fn tools(run: &Run, (side, program): (&Side<'_>, ProgramRef), places: &[Span]) -
         }
         if tool < 1.0 || tool.fract() != 0.0 {
             return Held::Broken { before, what: format!("changes to the tool {tool}") };
+        }
+        held = Held::Kept;
+    }
+    held
+}
+
+/// Whether peck cycles of some blocks have pecks: where they are told none, the hole is one of a cycle without.
+fn pecks(run: &Run, (side, program): (&Side<'_>, ProgramRef), places: &[Span]) -> Held {
+    let mut held = Held::Untried;
+    for (before, event) in run.events.iter().enumerate() {
+        let EventKind::Hole { cycle, .. } = event.what else { continue };
+        let block = event.at.span;
+        let here = |place: &Span| block.start <= place.start && place.start < block.end.max(block.start + 1);
+        if !places.iter().any(here) || side.links().at(run, event.at.program) != Some(program) {
+            continue;
+        }
+        if cycle == Op::CycleDrill {
+            // The block moves before it drills.
+            let other = run.events.iter().take(before).rposition(|event| event.at.span != block);
+            let before = other.map_or(0, |last| last + 1);
+            return Held::Broken { before, what: "drills pecks without a depth".into() };
         }
         held = Held::Kept;
     }

@@ -91,7 +91,7 @@ fn what_is_not_there_is_an_error_at_its_block() {
     // No source says that it is an alarm: the run says what it rests on.
     for text in ["#GOTO :NO\n", "#GOTO N7\n", "L101\n"] {
         let run = lines(text);
-        assert!(matches!(&run.end, End::Alarm { stop, .. } if stop.no_label), "{text}");
+        assert!(matches!(&run.end, End::Alarm { stop, .. } if stop.for_all), "{text}");
         let unsure = |what: &EventKind| matches!(what, EventKind::Unsure { fact } if fact.ends_with("goto.missing.alarms"));
         assert!(run.events.iter().any(|event| unsure(&event.what)), "{text}");
     }
