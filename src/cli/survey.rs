@@ -50,8 +50,10 @@ fn work(arguments: &Arguments) -> Result<(), u8> {
     let to = arguments.to.as_deref();
     let from = source_of(arguments.from.as_deref(), to.as_slice(), &arguments.machine, &inputs)?;
     let mut dialects: Vec<&str> = [from.as_str()].into_iter().chain(to).collect();
-    // A library that stays on its control has one profile.
-    dialects.dedup();
+    // A library that stays on its control has one profile, where nobody names two.
+    if arguments.machine.len() < 2 {
+        dialects.dedup();
+    }
     let (machines, places) = profiles(arguments, &dialects)?;
     let own = own_profile(arguments.from.as_deref(), &inputs)?;
     let mut is_open_lathe = [false; 2];
@@ -111,8 +113,10 @@ fn profiles(arguments: &Arguments, dialects: &[&str]) -> Result<(Vec<PathBuf>, V
     let Some(file) = &arguments.write else { return Ok((machines, Vec::new())) };
     let mut places = Vec::new();
     for (side, dialect) in dialects.iter().enumerate() {
-        // The profile that was named gets the questions about its machine.
-        if let Some(at) = named.iter().position(|of| of == dialect) {
+        // The profile that was named gets the questions about its machine: of two with one dialect the second is the target's.
+        let second = side == 1 && dialects[0] == *dialect;
+        let mut of_dialect = (0..named.len()).filter(|at| named[*at] == *dialect);
+        if let Some(at) = of_dialect.nth(usize::from(second)) {
             places.push(arguments.machine[at].clone());
             continue;
         }

@@ -86,6 +86,23 @@ fn what_is_filled_in_frees_programs() {
     assert_eq!(shop.run(convert).code, 0);
 }
 
+/// Two machines of one control, as lathes of two systems of codes: each profile gets the questions about its machine.
+#[test]
+fn two_profiles_of_one_control_get_their_own_questions() {
+    let lathe = |system: &str| {
+        format!("dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"\naxes = [\"X\", \"Z\"]\ndecimal_point = \"calculator\"\n[settings]\ngcode_system = \"{system}\"\n")
+    };
+    let program = "O1\nG50 S2000\nG96 S200 M3\nG0 X52. Z2.\nG97\nG0 X100.\nM99\n";
+    let shop = Shop::with(&[("lib/a.nc", program), ("a.toml", &lathe("A")), ("b.toml", &lathe("B"))]);
+    let run = shop.run("survey lib --from fanuc --to fanuc --machine a.toml --machine b.toml --write a.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    for profile in ["a.toml", "b.toml"] {
+        let text = shop.read(profile);
+        assert!(text.contains("#? \"speed.kept\" = "), "{profile}: {text}");
+        assert!(text.contains("#? codes = "), "{profile}: {text}");
+    }
+}
+
 /// A damaged library may have any number of unknown codes and missing programs, and names that are markup elsewhere.
 #[test]
 fn a_damaged_library_is_told_of_in_time() {

@@ -1,13 +1,13 @@
 //! Corners of a lathe without a comma, whose sign says which way the next block goes.
 //!
 //! Law: a corner after a move along one axis, before one along the other, is the corner between two lines, of the size without its
-//! sign. Side conditions: the size is a number, and the next block is known to go the way that the sign says: otherwise the source
+//! sign. Side conditions: the next block goes the way that the sign says, which is asked where one of them is computed: otherwise the source
 //! stops at an alarm. Counter-example: `Z-20. R-2.` before `X50.`, which goes outward.
 //! Where the source writes them with C and R, as a drawing gives them, a corner without a sign stands between any two lines.
 
 use super::place::Place;
 use super::straight::{entered_straight, goes_on_to};
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
@@ -48,24 +48,25 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             }
             let made =
                 stmt.kind.nc().ok_or_else(String::new).and_then(|nc| plain(nc, next, (known, letters)));
-            match made {
-                Ok(nc) => {
-                    let block = program.blocks.get_mut(at);
-                    if let Some(stmt) = block.and_then(|block| block.stmts.get_mut(place)) {
-                        stmt.kind = StmtKind::Nc(nc);
-                        changed = true;
-                    }
-                    found.push((span, Ok(())));
+            let result = made.map(|(nc, is_known)| {
+                let block = program.blocks.get_mut(at);
+                if let Some(stmt) = block.and_then(|block| block.stmts.get_mut(place)) {
+                    stmt.kind = StmtKind::Nc(nc);
+                    changed = true;
                 }
-                Err(what) => found.push((span, Err(what))),
-            }
+                is_known
+            });
+            found.push((span, result));
         }
         for (span, result) in found {
             context.rests_on_source(index, span, Question::CornerLetters);
-            if let Err(what) = result {
-                let help = "write the place of the next block, or the corner as moves";
-                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
-            }
+            let told = match result {
+                Ok(true) => continue,
+                Ok(false) => Diagnostic::new(Code::Conditional, span, OTHER_WAY).with_help(OTHER_WAY_HELP),
+                Err(what) => Diagnostic::new(Code::NoEquivalent, span, what)
+                    .with_help("write the place of the next block, or the corner as moves"),
+            };
+            context.add(index, told);
         }
     }
     changed
@@ -105,29 +106,41 @@ fn next_of(program: &Program, at: usize, place: usize) -> Option<&Nc> {
     rest.find(|stmt: &&Stmt| !matches!(stmt.kind, StmtKind::Comment))?.kind.nc()
 }
 
-/// The block with the corner without its sign.
-fn plain(nc: &Nc, next: Option<&Nc>, (place, letters): (Place, bool)) -> Result<Nc, String> {
+const OTHER_WAY: &str = "the sign of this corner, or which way the next block goes, is computed: where the two differ, the source stops at an alarm, and the target makes the corner";
+const OTHER_WAY_HELP: &str = "make sure that the sign is the way of the next block, as it is in a program that runs";
+
+/// A size without its sign.
+fn size_of(value: &Expr) -> Expr {
+    match value {
+        Expr::Negate(inner) => size_of(inner),
+        _ => match value.constant() {
+            Some(size) => Expr::Number(size.abs()),
+            None => Expr::Call(Func::Abs, [value.clone()].into()),
+        },
+    }
+}
+
+/// The block with the corner without its sign; true where the sign is known to be the way of the next block.
+fn plain(nc: &Nc, next: Option<&Nc>, (place, letters): (Place, bool)) -> Result<(Nc, bool), String> {
     let mut words = WORDS.iter().filter_map(|(role, plain)| Some((*role, *plain, nc.word(*role)?)));
     let (Some((role, plain, value)), None) = (words.next(), words.next()) else {
         return Err("two corners in one block".into());
     };
-    let Some(size) = value.constant().filter(|size| *size != 0.0) else {
-        return Err(
-            "the size of this corner is computed, or 0: its sign says which way the next block must go"
-                .into(),
-        );
-    };
+    let size = value.constant();
+    if size == Some(0.0) {
+        return Err("the size of this corner is 0: its sign says which way the next block must go".into());
+    }
     let without_sign = || {
         let item = |item: &NcItem| match item {
             NcItem::Word(found, _) if WORDS.iter().any(|(role, _)| role == found) => {
-                NcItem::Word(plain, Expr::Number(size.abs()))
+                NcItem::Word(plain, size_of(value))
             }
             other => other.clone(),
         };
         Nc { items: nc.items.iter().map(item).collect() }
     };
-    if letters && size > 0.0 {
-        return Ok(without_sign());
+    if letters && size.is_some_and(|size| size > 0.0) {
+        return Ok((without_sign(), true));
     }
     let axes = |nc: &Nc| {
         [[Role::X, Role::StepX], [Role::Z, Role::StepZ]]
@@ -172,15 +185,12 @@ fn plain(nc: &Nc, next: Option<&Nc>, (place, letters): (Place, bool)) -> Result<
     } else {
         value.zip(before).map(|(to, from)| to - from)
     };
-    match way {
-        Some(way) if way * size > 0.0 => Ok(without_sign()),
+    match way.zip(size) {
+        Some((way, size)) if way * size > 0.0 => Ok((without_sign(), true)),
         Some(_) => Err(
             "the sign of this corner says another way than the next block goes: the source stops at an alarm"
                 .into(),
         ),
-        None => Err(
-            "which way the next block goes is not known here, and the sign of this corner must be that way"
-                .into(),
-        ),
+        None => Ok((without_sign(), false)),
     }
 }

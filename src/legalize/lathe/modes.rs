@@ -8,10 +8,11 @@
 use super::settings::takes;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question, Side};
 use crate::ir::{Module, Nc};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
+use crate::text::Span;
 
 /// The codes of threads.
 const THREADS: [Op; 3] = [Op::Thread, Op::ThreadingPass, Op::Threading];
@@ -46,8 +47,29 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             context.rests_on_source(index, stmt.site.span, question);
             context.rests_on_target(index, stmt.site.span, question);
             context.must_agree(index, stmt.site.span, question);
+            if question == Question::SpeedKept {
+                only_one_says(index, stmt.site.span, context);
+            }
         }
     });
+}
+
+/// Where nobody says it of one control, the last speed of the mode is taken to come back; the other's is known to keep the turns.
+fn only_one_says(index: usize, span: Span, context: &mut Context<'_>) {
+    let turns = |control: &Control| {
+        let known = control.behaviour(Question::SpeedKept).filter(|row| row.value != "unknown");
+        known.map(|row| row.value == "turns")
+    };
+    let (control, side) = match (turns(context.source), turns(context.target)) {
+        (Some(true), None) => (context.target, Side::Target),
+        (None, Some(true)) => (context.source, Side::Source),
+        _ => return,
+    };
+    let what = format!(
+        "what the {side} does with a change between G96 and G97 without S is not known, and the other control keeps the turns of the moment"
+    );
+    let help = control.to_settle(Question::SpeedKept.fact(), side);
+    context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.as_str()).with_help(help));
 }
 
 const NOSE: &str =

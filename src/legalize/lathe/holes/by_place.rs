@@ -2,7 +2,7 @@
 
 use super::walk::{Hole, Refused};
 use crate::canon::{Op, Role, Sys};
-use crate::ir::{BinOp, Expr};
+use crate::ir::{BinOp, Expr, Nc, NcItem};
 
 /// The most blocks that a repeat becomes.
 const MOST: f64 = 200.0;
@@ -10,9 +10,27 @@ const MOST: f64 = 200.0;
 /// Gives a block the target's words and code; how often it runs.
 pub(super) fn change(hole: &mut Hole<'_>) -> Result<usize, Refused> {
     let plane = plane(hole)?;
-    bottom(hole, plane)?;
+    let ends_higher = bottom(hole, plane)?;
     code(hole)?;
-    times(hole)
+    let times = times(hole)?;
+    if ends_higher {
+        go_back(hole, times)?;
+    }
+    Ok(times)
+}
+
+/// The target ends a hole at its plane where the cycle begins deeper than that: the way back to where it began is a block of its own, which ends the
+/// target's cycle, so the next hole has its code again.
+fn go_back(hole: &mut Hole<'_>, times: usize) -> Result<(), Refused> {
+    let along = if hole.side() { Role::X } else { Role::Z };
+    match hole.cycle.initial.filter(|_| hole.rapid && times == 1) {
+        Some(level) => {
+            hole.after.push(Nc { items: vec![NcItem::Op(Op::Rapid), NcItem::Word(along, Expr::Number(level))] });
+            hole.cycle.is_ended = true;
+            Ok(())
+        }
+        None => Err((BELOW, BELOW_HELP)),
+    }
 }
 
 /// A retract plane of this block: a number, or a value that is computed.
@@ -77,8 +95,8 @@ fn from(base: Expr, step: Expr) -> Expr {
     }
 }
 
-/// The bottom as a place; a depth that counts from the plane needs it.
-fn bottom(hole: &mut Hole<'_>, plane: Plane) -> Result<(), Refused> {
+/// The bottom as a place; a depth that counts from the plane needs it. True where the cycle begins between its plane and the bottom.
+fn bottom(hole: &mut Hole<'_>, plane: Plane) -> Result<bool, Refused> {
     let (whole, step) = hole.depth();
     if let Some(depth) = hole.nc.word(step).cloned() {
         let plane = hole.cycle.plane.map(Expr::Number).or(plane).ok_or((DEPTH, DEPTH_HELP))?;
@@ -93,12 +111,9 @@ fn bottom(hole: &mut Hole<'_>, plane: Plane) -> Result<(), Refused> {
         return Err(("a drilling cycle without its depth", "write the depth into its block"));
     }
     let constant = hole.cycle.bottom.as_ref().and_then(Expr::constant);
-    if let (Some(initial), Some(plane), Some(bottom)) = (hole.cycle.initial, hole.cycle.plane, constant)
-        && (initial - plane) * (bottom - plane) > 0.0
-    {
-        return Err((BELOW, BELOW_HELP));
-    }
-    Ok(())
+    let places = (hole.cycle.initial, hole.cycle.plane, constant);
+    let (Some(initial), Some(plane), Some(bottom)) = places else { return Ok(false) };
+    Ok((initial - plane) * (bottom - plane) > 0.0)
 }
 
 /// The code of the way that the block drills.
@@ -147,11 +162,12 @@ fn code(hole: &mut Hole<'_>) -> Result<(), Refused> {
         (Op::FaceTap | Op::SideTap, ..) => tap(hole)?,
         (op, ..) => op,
     };
-    let alone = !hole.begins && hole.cycle.written == Some(op);
+    let ended = std::mem::take(&mut hole.cycle.is_ended);
+    let alone = !hole.begins && !ended && hole.cycle.written == Some(op);
     // What else a block that goes on may be under is the same code, where the program has but one way of drilling.
     let one_way = hole.all.dwells.is_empty() && (hole.all.pecks.is_empty() || !hole.all.without_peck);
     if !alone && (hole.begins || hole.cycle.written.is_some() || !one_way) {
-        again(hole, op)?;
+        again(hole, op, ended)?;
         if waits || peck && (hole.all.other_waits || !hole.all.dwells.is_empty()) {
             hole.put(Role::CycleDwell, Role::CycleDwell, dwell);
             return Ok(());
@@ -163,10 +179,10 @@ fn code(hole: &mut Hole<'_>) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Writes a code, with the planes where it is another than before: what lasts over codes is not left to the control.
-fn again(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
+/// Writes a code, with the planes where it is another than before, or one that `ended`: what lasts over codes is not left to the control.
+fn again(hole: &mut Hole<'_>, op: Op, ended: bool) -> Result<(), Refused> {
     let (whole, _) = hole.depth();
-    let other = hole.cycle.written.is_some_and(|written| written != op);
+    let other = ended || hole.cycle.written.is_some_and(|written| written != op);
     hole.write(op);
     if other {
         let known = hole.cycle.bottom.clone().filter(|bottom| bottom.constant().is_some());
@@ -235,7 +251,7 @@ const DEPTH: &str =
     "the depth counts from the retract plane, which is not known here, and the target takes it as a place";
 const DEPTH_HELP: &str = "write the depth as a place, or the place of the tool as numbers before the cycle";
 const BELOW: &str = "this drilling cycle begins between its retract plane and the bottom: the target ends such a hole at the plane";
-const BELOW_HELP: &str = "begin the cycle at the retract plane or beyond it";
+const BELOW_HELP: &str = "begin the cycle at the retract plane or beyond it, or have G0 in force before it, and no repeats";
 const WAIT: &str = "which wait of an earlier hole is still in force here depends on the path";
 const WAIT_HELP: &str = "write P into this block";
 const NO_WAIT: &str = "the target's code for this hole takes no wait at the bottom";

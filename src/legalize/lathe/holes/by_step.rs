@@ -134,6 +134,9 @@ fn last_wait(hole: &mut Hole<'_>) -> Result<(), Refused> {
 const CONTOUR: &str = "the wait of this hole is the last P that was a wait, and the cycle of a contour came after it: its P, the number of a block, is taken to be \
                        none";
 
+const OFFSET: &str = "a hole without a wait of its own comes after a work offset that P names, and no other P: that P is taken to be no wait";
+const OFFSET_HELP: &str = "as milliseconds it would be a tenth of a second at the most; write P into the block of the hole if that matters";
+
 /// Drilling: the wait and the peck where the target needs them told.
 fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     let waits = matches!(op, Op::FaceDrillDwell | Op::SideDrillDwell);
@@ -141,7 +144,10 @@ fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     let told = hole.nc.word(Role::CycleDwell).cloned();
     let earlier = hole.all.other_waits || !hole.all.dwells.is_empty();
     if hole.begins && told.is_none() {
-        if waits || pecks && earlier && !hole.waits.none_yet() {
+        if (waits || pecks) && hole.waits.is_offset() {
+            hole.asked.push((OFFSET, OFFSET_HELP, op, true));
+        }
+        if waits && !hole.waits.is_offset() || pecks && earlier && !hole.waits.none_yet() {
             last_wait(hole)?;
         }
         no_wait(hole);

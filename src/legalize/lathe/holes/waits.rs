@@ -4,7 +4,7 @@ use crate::canon::Role;
 use crate::dialect::Control;
 use crate::ir::analysis::calls_of;
 use crate::ir::analysis::over_calls::called;
-use crate::ir::{Callee, Expr, Module, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{Callee, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -21,6 +21,13 @@ pub(super) struct Waits {
     called: Rc<Vec<bool>>,
     /// True where the cycle of a contour with its P came after the wait that is known.
     doubted: bool,
+    /// True where the only P before names a work offset.
+    offset: bool,
+}
+
+/// True of a block that names a work offset by P: G54 to G59 need none, and those that P names have numbers from 101 on.
+pub(super) fn names_offset(nc: &Nc) -> bool {
+    nc.word(Role::WorkOffset).is_some_and(|number| number.constant().is_none_or(|number| number >= 100.0))
 }
 
 impl Waits {
@@ -49,6 +56,7 @@ impl Waits {
     /// At a block to which other ways may lead; to the first one the program comes.
     pub fn come_in(&mut self, first: bool) {
         (self.last, self.none_yet) = (None, self.none_yet && first);
+        self.offset &= self.none_yet;
     }
 
     /// The wait, where it is known.
@@ -61,7 +69,12 @@ impl Waits {
         self.doubted
     }
 
-    /// True where no code of the run had a P.
+    /// True where the only P before names a work offset.
+    pub fn is_offset(&self) -> bool {
+        self.offset
+    }
+
+    /// True where no code of the run had a P that may be a wait.
     pub fn none_yet(&self) -> bool {
         self.none_yet
     }
@@ -76,20 +89,18 @@ impl Waits {
         };
         let wait = |role: Role, by: f64| nc.word(role).map(|wait| wait.constant().map(|wait| wait * by));
         let waits = wait(Role::CycleDwell, 1.0).or(wait(Role::DwellMs, 1.0)).or(wait(Role::DwellS, 1000.0));
+        // Where it is the only P, it is taken to be no wait, and that is asked.
+        self.offset |= self.none_yet && names_offset(nc);
+        let counts = names_offset(nc) && !self.none_yet;
         let other = nc.items.iter().any(|item| match item {
-            // G54 to G59 select a work offset without P; those that P names have numbers from 101 on.
-            NcItem::Word(Role::WorkOffset, number)
-                if number.constant().is_some_and(|number| number < 100.0) =>
-            {
-                false
-            }
+            NcItem::Word(Role::WorkOffset, _) => counts,
             NcItem::Word(role, _) => self.roles.contains(role),
             NcItem::Code(..) => true,
             NcItem::Op(_) => false,
         });
         self.doubted |= self.last.is_some() && nc.word(Role::ContourFirst).is_some();
         if waits.is_some() || other {
-            self.doubted = false;
+            (self.doubted, self.offset) = (false, false);
             let known = waits.flatten().filter(|_| stmt.site.skip.is_none());
             self.last = known.map(|ms| (ms * 1e6).round() / 1e6);
             self.none_yet = false;

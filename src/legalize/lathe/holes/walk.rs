@@ -1,6 +1,6 @@
 //! The walk through the drilling blocks of a program.
 
-use super::waits::Waits;
+use super::waits::{Waits, names_offset};
 use super::{by_place, by_step, drills};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
@@ -47,6 +47,8 @@ pub(super) struct Cycle {
     pub written: Option<Op>,
     /// True where the coordinates changed since it began.
     pub shifted: bool,
+    /// True where a move after its last hole ended it on the target.
+    pub is_ended: bool,
 }
 
 /// What holds of all holes of a program.
@@ -84,6 +86,8 @@ pub(super) struct Hole<'h> {
     pub asked: Vec<Asked>,
     /// Blocks that go before it.
     pub before: Vec<Nc>,
+    /// Blocks that go after it.
+    pub after: Vec<Nc>,
     /// True where rapid traverse is in force before and after it.
     pub rapid: bool,
 }
@@ -147,7 +151,8 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     let mut found: Vec<(usize, Diagnostic)> = Vec::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
-        let all = All { other_waits, stands, ..all(program, &states) };
+        let all = all(program, &states);
+            let all = All { other_waits: other_waits || all.other_waits, stands, ..all };
         let straight = entered_straight(program);
         let mut walk = Walk {
             cycle: Cycle::default(),
@@ -252,6 +257,7 @@ fn all(program: &Program, states: &[Modal]) -> All {
         for stmt in &block.stmts {
             state.step(stmt);
             let Some(nc) = stmt.kind.nc() else { continue };
+            all.other_waits |= names_offset(nc);
             if drills(nc, &state).is_some() {
                 keep(&mut all.dwells, nc.word(Role::CycleDwell));
                 keep(&mut all.pecks, nc.word(Role::CycleQ));
@@ -363,22 +369,21 @@ impl Walk {
             waits,
             asked: Vec::new(),
             before: Vec::new(),
+            after: Vec::new(),
             rapid: motion == Some(Op::Rapid) && state.op(Group::Motion) == motion,
         };
         let done = if by_steps { by_step::change(&mut hole) } else { by_place::change(&mut hole) };
-        let times = match done {
-            Ok(times) => times,
-            Err(refused) => return Some(Err(refused)),
-        };
-        let (nc, asked, lead) = (hole.nc, hole.asked, hole.before);
+        let Ok(times) = done else { return done.err().map(Err) };
+        let (nc, asked, lead, tail) = (hole.nc, hole.asked, hole.before, hole.after);
         // The spindle that turns the part is after a tap of a live tool as before it (docs/lathe.md Q11), after others it may turn.
         self.stands &= self.cycle.written.is_none_or(|op| !op.is_tap() || op.is_live_tap());
         let again = Nc { items: nc.items.iter().filter(|item| says_again(item)).cloned().collect() };
         let first = Stmt { kind: StmtKind::Nc(nc), site: stmt.site.clone() };
         let site = crate::ir::SourceInfo { span: stmt.site.span, ..Default::default() };
         let more = Stmt { kind: StmtKind::Nc(again), site: site.clone() };
-        let lead = lead.into_iter().map(|nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() });
-        let made = lead.chain([first]).chain(std::iter::repeat_n(more, times - 1));
+        let new = |nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() };
+        let holes = [first].into_iter().chain(std::iter::repeat_n(more, times - 1));
+        let made = lead.into_iter().map(new).chain(holes).chain(tail.into_iter().map(new));
         Some(Ok((made.collect(), asked)))
     }
 }
