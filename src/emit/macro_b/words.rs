@@ -120,7 +120,8 @@ impl<'p> Emitter<'p> {
                     Op::SelectWork => " (`work_offsets` of its machine profile says how many it has)",
                     _ => "",
                 };
-                self.out.unmapped(format_args!("the operation '{op}' with these words{hint}"));
+                let meaning = op.meaning().trim().trim_end_matches('.');
+                self.out.unmapped(format_args!("the operation '{op}' ({meaning}) with these words{hint}"));
             }
             codes.push(code);
         }

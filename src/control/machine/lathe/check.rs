@@ -1,6 +1,6 @@
 //! What an emulated lathe refuses, with the word or the code that is in the way.
 
-use super::alarm;
+use super::{alarm, said};
 use crate::canon::{Group, Op, Role};
 use crate::control::machine::{Command, Machine, arc};
 use crate::control::outcome::Stop;
@@ -67,7 +67,8 @@ fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
     let has = |roles: &[Role]| roles.iter().find(|role| command.word(**role).is_some()).copied();
     let arcs = matches!(motion, Op::ArcCw | Op::ArcCcw);
     if let Some(role) = has(&[Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius]).filter(|_| !arcs) {
-        return Err(Stop::unnamed(format!("{role} in a block that makes no arc")));
+        let what = said(role.meaning());
+        return Err(Stop::unnamed(format!("a word of arcs ({what}) in a block that makes none")));
     }
     let steps = command.words.iter().any(|(role, _)| role.is_step());
     let by_mode = command.of(Group::Distance).map_or(machine.incremental, |op| op == Op::Incremental);
@@ -87,7 +88,7 @@ fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
     let turned = has(&[Role::C]).filter(|_| cuts && !machine.rules.turning.has_c);
     let axis = has(&[Role::A, Role::B, Role::E, Role::U, Role::V, Role::W]).or(turned);
     match axis {
-        Some(role) => Err(Stop::unnamed(format!("{role}, which the emulated lathe does not have"))),
+        Some(role) => Err(Stop::unnamed(format!("an axis that the emulated lathe does not have ({})", said(role.meaning())))),
         None => Ok(()),
     }
 }

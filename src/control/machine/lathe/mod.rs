@@ -157,6 +157,11 @@ pub(super) fn setup(machine: &mut Machine, op: Op, command: &Command) -> Result<
     Ok(())
 }
 
+/// The meaning of a code or a word, for a place within a sentence.
+fn said(meaning: &str) -> &str {
+    meaning.trim().trim_end_matches('.')
+}
+
 /// An alarm by its number on the controls that number theirs.
 fn alarm(number: &str, text: &str) -> Stop {
     Stop::alarm(number, text)

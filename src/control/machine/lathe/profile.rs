@@ -4,7 +4,7 @@ use super::contour::{Contour, Contoured};
 use super::drawn::{self, Move};
 use super::shape::Piece;
 use super::way::Point;
-use super::{EXACT, alarm, corner};
+use super::{EXACT, alarm, corner, said};
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::control::machine::arc::{self, Flat};
 use crate::control::machine::{Command, Machine};
@@ -72,14 +72,14 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         let m = matches!(found, Op::MachineSpecific | Op::Builder | Op::Act | Halt | OptionalStop);
         let fine = matches!(found, Rapid | Linear | ArcCw | ArcCcw | Dwell | Op::TurretIndex);
         if !(comp || own || m || fine) {
-            return Err(alarm(number, &format!("{found} between the blocks of a contour")));
+            return Err(alarm(number, &format!("'{}' between the blocks of a contour", said(found.meaning()))));
         }
         if op != Op::Finish && matches!(found, Op::RadiusLeft | Op::RadiusRight) {
             trace.doubt("machine:lathe.nose.roughing");
         }
     }
     match command.words.iter().find(|(role, _)| !may_stand(*role)) {
-        Some((role, _)) => Err(Stop::unnamed(format!("{role} between the blocks of a contour"))),
+        Some((role, _)) => Err(Stop::unnamed(format!("'{}' between the blocks of a contour", said(role.meaning())))),
         None => Ok(()),
     }
 }

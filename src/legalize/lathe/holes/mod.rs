@@ -7,6 +7,7 @@
 
 mod by_place;
 mod by_step;
+mod rigid;
 mod waits;
 mod walk;
 

@@ -1,10 +1,11 @@
 //! The last P of any code, which on some controls is the wait of a hole that has none.
 
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::dialect::Control;
 use crate::ir::analysis::calls_of;
 use crate::ir::analysis::over_calls::called;
 use crate::ir::{Callee, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::legalize::features::{Feature, Features};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -106,4 +107,15 @@ impl Waits {
             self.none_yet = false;
         }
     }
+}
+
+/// True where another code than that of a hole may have its letter: calls, waits, contours, threads. What such a code becomes on the target may have
+/// it too.
+pub(super) fn other_waits(features: &Features, by_steps: bool) -> bool {
+    const WORDS: [Role; 6] =
+        [Role::DwellMs, Role::DwellS, Role::Program, Role::ContourFirst, Role::ThreadInfeed, Role::Sequence];
+    let calls = [Feature::Call, Feature::LocalCall, Feature::Modal, Feature::Chain, Feature::ReturnTo];
+    calls.into_iter().any(|call| features.has(call))
+        || WORDS.iter().any(|role| features.role(*role))
+        || !by_steps && features.any_op(Op::is_lathe_cycle)
 }

@@ -1,13 +1,15 @@
 //! The walk through the drilling blocks of a program.
 
-use super::waits::{Waits, names_offset};
+use super::rigid::{drop_rigid, is_empty};
+use super::waits::{Waits, names_offset, other_waits};
 use super::{by_place, by_step, drills};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
-use crate::legalize::features::{Feature, Features};
+use crate::text::Span;
+use crate::legalize::features::Feature;
 use crate::legalize::lathe::place::{Place, changes_coordinates};
 use crate::legalize::lathe::straight::entered_straight;
 use crate::legalize::{Context, Modal};
@@ -149,6 +151,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     let waits = Waits::of(context.source, module);
     let stands = !turns(Op::SpindleCw) && !turns(Op::SpindleCcw) && !context.features.has(Feature::Code);
     let mut found: Vec<(usize, Diagnostic)> = Vec::new();
+    let (mut is_ended, mut open) = (false, Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
         let all = all(program, &states);
@@ -160,6 +163,8 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             speed: None,
             stands: false,
             waits: waits.begin((index, program)),
+            is_ended: false,
+            open: Vec::new(),
         };
         for (at, ((block, mut state), straight)) in
             program.blocks.iter_mut().zip(states).zip(straight).enumerate()
@@ -205,43 +210,16 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 found.push((index, refused.with_help(CALLS_HELP)));
             }
         }
+        is_ended |= walk.is_ended;
+        open.extend(walk.open.into_iter().map(|span| (index, span)));
+    }
+    for (index, span) in open.into_iter().filter(|_| is_ended) {
+        found.push((index, Diagnostic::new(Code::NoEquivalent, span, OPEN).with_help(OPEN_HELP)));
     }
     for (index, diagnostic) in found {
         let fact = format!("{} {:?}", diagnostic.message, diagnostic.span);
         context.add_once(index, &fact, diagnostic);
     }
-}
-
-/// Takes away what makes taps rigid, for a target whose taps always are; the speed beside it stays, unless it is said `again`.
-fn drop_rigid(stmt: &mut Stmt, target: &Control, again: Option<f64>) {
-    if !stmt.kind.has_op(Op::RigidTaps) || target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some() {
-        return;
-    }
-    let StmtKind::Nc(nc) = &mut stmt.kind else { return };
-    nc.items.retain(|item| match item {
-        NcItem::Word(Role::Speed, speed) => again.is_none() || speed.constant() != again,
-        item => *item != NcItem::Op(Op::RigidTaps),
-    });
-    if nc.items.is_empty() {
-        stmt.kind = StmtKind::Comment;
-    }
-}
-
-/// True of a block that says nothing, and that no jump can name.
-fn is_empty(stmt: &Stmt) -> bool {
-    let site = &stmt.site;
-    matches!(stmt.kind, StmtKind::Comment) && site.comments.is_empty() && site.sequence.get().is_none()
-}
-
-/// True where another code than that of a hole may have its letter: calls, waits, contours, threads. What such a code becomes on the target may have
-/// it too.
-fn other_waits(features: &Features, by_steps: bool) -> bool {
-    const WORDS: [Role; 6] =
-        [Role::DwellMs, Role::DwellS, Role::Program, Role::ContourFirst, Role::ThreadInfeed, Role::Sequence];
-    let calls = [Feature::Call, Feature::LocalCall, Feature::Modal, Feature::Chain, Feature::ReturnTo];
-    calls.into_iter().any(|call| features.has(call))
-        || WORDS.iter().any(|role| features.role(*role))
-        || !by_steps && features.any_op(Op::is_lathe_cycle)
 }
 
 /// What holds of all holes of a program.
@@ -278,6 +256,10 @@ struct Walk {
     /// True where the spindle that turns the part was stopped, and taps of live tools alone came since.
     stands: bool,
     waits: Waits,
+    /// True where a move after a hole ended the target's cycle.
+    is_ended: bool,
+    /// Holes without a code, of a cycle that other ways lead to too.
+    open: Vec<Span>,
 }
 
 /// What becomes of a block that drills, and what is asked.
@@ -356,6 +338,9 @@ impl Walk {
         } else if self.cycle.shifted {
             return Some(Err((SHIFTED, "end the cycle before it (G80), and write it again after it")));
         }
+        if !fresh && !begins && self.cycle.written.is_none() {
+            self.open.push(stmt.site.span);
+        }
         let mut hole = Hole {
             nc: nc.clone(),
             op,
@@ -375,6 +360,7 @@ impl Walk {
         let done = if by_steps { by_step::change(&mut hole) } else { by_place::change(&mut hole) };
         let Ok(times) = done else { return done.err().map(Err) };
         let (nc, asked, lead, tail) = (hole.nc, hole.asked, hole.before, hole.after);
+        self.is_ended |= self.cycle.is_ended;
         // The spindle that turns the part is after a tap of a live tool as before it (docs/lathe.md Q11), after others it may turn.
         self.stands &= self.cycle.written.is_none_or(|op| !op.is_tap() || op.is_live_tap());
         let again = Nc { items: nc.items.iter().filter(|item| says_again(item)).cloned().collect() };
@@ -399,4 +385,7 @@ const WAITS: &str =
     "a G4 in a drilling cycle that waits: on one of the two controls its P is the wait of the next hole too";
 const CALLS: &str = "a call in a drilling cycle that waits: on one of the two controls the P of the call is the wait of the next hole too";
 const CALLS_HELP: &str = "end the cycle before the call (G80), and write it again, with its P, after it";
+const OPEN: &str = "a hole without a code of its own, to which other ways lead, and a hole of the library begins below its plane: the way back after that one ends the cycle on \
+                    the target";
+const OPEN_HELP: &str = "write the code of the cycle, with its words, into this block too";
 const UNKNOWN: &str = "whether a drilling cycle is in force before this one is not known";
