@@ -90,7 +90,9 @@ fn what_is_filled_in_frees_programs() {
 #[test]
 fn two_profiles_of_one_control_get_their_own_questions() {
     let lathe = |system: &str| {
-        format!("dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"\naxes = [\"X\", \"Z\"]\ndecimal_point = \"calculator\"\n[settings]\ngcode_system = \"{system}\"\n")
+        format!(
+            "dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"\naxes = [\"X\", \"Z\"]\ndecimal_point = \"calculator\"\n[settings]\ngcode_system = \"{system}\"\n"
+        )
     };
     let program = "O1\nG50 S2000\nG96 S200 M3\nG0 X52. Z2.\nG97\nG0 X100.\nM99\n";
     let shop = Shop::with(&[("lib/a.nc", program), ("a.toml", &lathe("A")), ("b.toml", &lathe("B"))]);

@@ -8,6 +8,7 @@ pub(crate) mod behind;
 mod call_graph;
 mod cfg;
 pub(crate) mod computed_calls;
+mod contour;
 pub mod dataflow;
 mod effects;
 mod live_statics;

@@ -1,5 +1,6 @@
 //! What is in force of every modal group at a place, and what statements do to it.
 
+use super::contour::Contour;
 use super::tool_word::ToolWord;
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::Lattice;
@@ -100,6 +101,8 @@ pub struct Modal {
     pub calls: Option<Vec<Call>>,
     /// True where nothing in the library leaves another unit than the one that is named.
     pub one_unit: bool,
+    /// The contour that a cycle before reads; absent where paths disagree.
+    contour: Option<Contour>,
 }
 
 impl Modal {
@@ -115,6 +118,7 @@ impl Modal {
             tool_word: ToolWord::Unknown,
             calls: Some(Vec::new()),
             one_unit: false,
+            contour: None,
         }
     }
 
@@ -174,6 +178,16 @@ impl Modal {
 
     /// Takes a statement's effect.
     pub fn step(&mut self, stmt: &Stmt) {
+        let number = self.contour.and_then(|_| stmt.site.sequence.get());
+        let motion = self.settings[Group::Motion as usize];
+        self.contour.iter_mut().for_each(|contour| contour.enter(number, motion));
+        self.take(stmt);
+        if let Some(motion) = self.contour.and_then(|contour| contour.leave(number)) {
+            (self.settings[Group::Motion as usize], self.contour) = (motion, None);
+        }
+    }
+
+    fn take(&mut self, stmt: &Stmt) {
         // Most blocks only say where to.
         if stmt.kind.nc().is_some_and(only_says_where)
             && !self.may_call()
@@ -217,6 +231,9 @@ impl Modal {
                 NcItem::Word(Role::Feed, value) => feed = feed.or(Some(value)),
                 NcItem::Code(..) | NcItem::Word(..) => {}
             }
+        }
+        if nc.ops().any(Op::reads_contour) {
+            self.contour = Contour::of(nc);
         }
         // Most blocks only say where to: neither codes, nor a length, nor a tool.
         if !bare {
@@ -339,6 +356,10 @@ impl Lattice for Modal {
         self.length_word &= other.length_word;
         changed |= other.length_named && !self.length_named;
         self.length_named |= other.length_named;
+        if self.contour != other.contour && self.contour.is_some() {
+            self.contour = None;
+            changed = true;
+        }
         if self.calls != other.calls && self.calls.is_some() {
             self.calls = None;
             changed = true;

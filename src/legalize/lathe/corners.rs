@@ -107,7 +107,8 @@ fn next_of(program: &Program, at: usize, place: usize) -> Option<&Nc> {
 }
 
 const OTHER_WAY: &str = "the sign of this corner, or which way the next block goes, is computed: where the two differ, the source stops at an alarm, and the target makes the corner";
-const OTHER_WAY_HELP: &str = "make sure that the sign is the way of the next block, as it is in a program that runs";
+const OTHER_WAY_HELP: &str =
+    "make sure that the sign is the way of the next block, as it is in a program that runs";
 
 /// A size without its sign.
 fn size_of(value: &Expr) -> Expr {

@@ -88,7 +88,10 @@ fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
     let turned = has(&[Role::C]).filter(|_| cuts && !machine.rules.turning.has_c);
     let axis = has(&[Role::A, Role::B, Role::E, Role::U, Role::V, Role::W]).or(turned);
     match axis {
-        Some(role) => Err(Stop::unnamed(format!("an axis that the emulated lathe does not have ({})", said(role.meaning())))),
+        Some(role) => Err(Stop::unnamed(format!(
+            "an axis that the emulated lathe does not have ({})",
+            said(role.meaning())
+        ))),
         None => Ok(()),
     }
 }

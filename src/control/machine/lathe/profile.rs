@@ -72,14 +72,19 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         let m = matches!(found, Op::MachineSpecific | Op::Builder | Op::Act | Halt | OptionalStop);
         let fine = matches!(found, Rapid | Linear | ArcCw | ArcCcw | Dwell | Op::TurretIndex);
         if !(comp || own || m || fine) {
-            return Err(alarm(number, &format!("'{}' between the blocks of a contour", said(found.meaning()))));
+            return Err(alarm(
+                number,
+                &format!("'{}' between the blocks of a contour", said(found.meaning())),
+            ));
         }
         if op != Op::Finish && matches!(found, Op::RadiusLeft | Op::RadiusRight) {
             trace.doubt("machine:lathe.nose.roughing");
         }
     }
     match command.words.iter().find(|(role, _)| !may_stand(*role)) {
-        Some((role, _)) => Err(Stop::unnamed(format!("'{}' between the blocks of a contour", said(role.meaning())))),
+        Some((role, _)) => {
+            Err(Stop::unnamed(format!("'{}' between the blocks of a contour", said(role.meaning()))))
+        }
         None => Ok(()),
     }
 }

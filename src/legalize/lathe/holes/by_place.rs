@@ -25,7 +25,8 @@ fn go_back(hole: &mut Hole<'_>, times: usize) -> Result<(), Refused> {
     let along = if hole.side() { Role::X } else { Role::Z };
     match hole.cycle.initial.filter(|_| hole.rapid && times == 1) {
         Some(level) => {
-            hole.after.push(Nc { items: vec![NcItem::Op(Op::Rapid), NcItem::Word(along, Expr::Number(level))] });
+            hole.after
+                .push(Nc { items: vec![NcItem::Op(Op::Rapid), NcItem::Word(along, Expr::Number(level))] });
             hole.cycle.is_ended = true;
             Ok(())
         }
@@ -251,7 +252,8 @@ const DEPTH: &str =
     "the depth counts from the retract plane, which is not known here, and the target takes it as a place";
 const DEPTH_HELP: &str = "write the depth as a place, or the place of the tool as numbers before the cycle";
 const BELOW: &str = "this drilling cycle begins between its retract plane and the bottom: the target ends such a hole at the plane";
-const BELOW_HELP: &str = "begin the cycle at the retract plane or beyond it, or have G0 in force before it, and no repeats";
+const BELOW_HELP: &str =
+    "begin the cycle at the retract plane or beyond it, or have G0 in force before it, and no repeats";
 const WAIT: &str = "which wait of an earlier hole is still in force here depends on the path";
 const WAIT_HELP: &str = "write P into this block";
 const NO_WAIT: &str = "the target's code for this hole takes no wait at the bottom";

@@ -8,11 +8,11 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
-use crate::text::Span;
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::place::{Place, changes_coordinates};
 use crate::legalize::lathe::straight::entered_straight;
 use crate::legalize::{Context, Modal};
+use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// Why a hole is refused, and what to do.
@@ -155,7 +155,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
         let all = all(program, &states);
-            let all = All { other_waits: other_waits || all.other_waits, stands, ..all };
+        let all = All { other_waits: other_waits || all.other_waits, stands, ..all };
         let straight = entered_straight(program);
         let mut walk = Walk {
             cycle: Cycle::default(),
