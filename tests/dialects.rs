@@ -102,11 +102,12 @@ fn the_sources_of_common_rows_are_known() {
 }
 
 /// How sure the rows of each control are: confirmed, common, unconfirmed, and among these the questions that are answered
-/// `unknown`. A row that gets surer lowers its figure here; none may rise without a reason in the commit.
+/// `unknown`. What rests on a question counts once, there. A row that gets surer lowers its figure here; none may rise
+/// without a reason in the commit.
 #[test]
 fn so_many_rows_are_unconfirmed() {
     fn count<T: Row>(rows: &[T], counts: &mut [usize; 4]) {
-        for row in rows {
+        for row in rows.iter().filter(|row| row.origin().rests.is_none()) {
             let at = match row.origin().mark {
                 Mark::Confirmed => 0,
                 Mark::Common => 1,
@@ -139,7 +140,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[388, 263, 95, 34], [661, 40, 112, 30], [289, 7, 105, 52], [241, 0, 91, 40]]);
+    assert_eq!(counts, [[393, 278, 68, 25], [664, 40, 93, 29], [289, 7, 99, 52], [249, 0, 72, 38]]);
 }
 
 fn control(name: &str) -> Control {

@@ -62,6 +62,13 @@ fn has_fact(control: &Control, fact: &str) -> bool {
             let codes = dialect.codes.iter().flat_map(|row| row.words.values());
             codes.chain(dialect.words.iter().map(|row| &row.role)).any(|role| role.name() == name)
         }
+        "form" => {
+            let (place, takes) = name.split_once('=').expect(fact);
+            dialect
+                .forms
+                .iter()
+                .any(|row| row.place.name() == place && row.takes.iter().any(|one| one.name() == takes))
+        }
         "statement" => control.statement(name).is_some(),
         "operator" => control.operator(name).is_some(),
         "function" => dialect.functions.iter().any(|row| row.fact() == fact),
@@ -73,10 +80,24 @@ fn controls() -> Vec<Control> {
     registry::all().iter().map(|entry| Control::plain(entry.name).expect(entry.name)).collect()
 }
 
+/// True for a question whose answer rows of a table rest on: it is heard wherever one of them is used.
+fn is_rested_on(question: Question) -> bool {
+    fn names<T: Row>(rows: &[T], question: Question) -> bool {
+        rows.iter().any(|row| row.origin().rests.as_deref() == Some(question.fact()))
+    }
+    registry::all().iter().filter_map(|entry| entry.dialect().ok()).any(|of| {
+        names(&of.system, question)
+            || names(&of.codes, question)
+            || names(&of.operators, question)
+            || names(&of.words, question)
+    })
+}
+
 #[test]
 fn every_question_is_asked_by_code() {
-    let idle: Vec<&str> =
-        Question::ALL.iter().filter(|question| places(**question).is_empty()).map(|q| q.name()).collect();
+    let idle =
+        Question::ALL.iter().filter(|question| places(**question).is_empty() && !is_rested_on(**question));
+    let idle: Vec<&str> = idle.map(|q| q.name()).collect();
     assert!(idle.is_empty(), "no code asks: ask them, or take them out of {LIST} and the tables: {idle:#?}");
 }
 

@@ -1,10 +1,12 @@
 //! What a table must not say: the same thing twice, a range backwards, two
 //! answers to one question.
 
+use super::check_sources::sources;
 use super::overlay;
+use super::questions::SETTING;
 use super::reader::{Placed, Reader, closest};
 use super::{
-    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Mark, Operator, Question, Row,
+    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Operator, Question, Row,
     SameCells, Setting, Statement, SystemVariable, VariableClass, WordMeaning,
 };
 use std::collections::BTreeMap;
@@ -196,11 +198,12 @@ fn operators(reader: &mut Reader, rows: &[Placed<Operator>]) {
 fn answers(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
     for placed in rows {
         let Behaviour { question, value, one_of, .. } = &placed.row;
-        for value in [value].into_iter().chain(one_of).filter(|value| !question.answers().admits(value)) {
+        let admits = |value: &str| question.answers().admits(value) || question.may_hang_on_setting(value);
+        for value in [value].into_iter().chain(one_of).filter(|value| !admits(value)) {
             let message = format!("'{value}' is not a value of {question}");
             reader.fault_at(placed.place.clone(), message, format!("it is {}", question.answers()));
         }
-        let open = |value: &str| ["unknown", "setting"].contains(&value);
+        let open = |value: &str| ["unknown", SETTING].contains(&value);
         let twice =
             one_of.iter().enumerate().any(|(at, one)| one_of.iter().take(at).any(|other| other == one));
         if !one_of.is_empty() && (one_of.len() < 2 || twice || one_of.iter().any(|one| open(one))) {
@@ -358,41 +361,4 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
             }
         }
     }
-}
-
-/// Every row says where it comes from, and an unconfirmed one what is not certain.
-fn sources(reader: &mut Reader, tables: &Tables) {
-    fn section<T: Row>(reader: &mut Reader, rows: &[Placed<T>]) {
-        for placed in rows {
-            let origin = placed.row.origin();
-            if origin.source.trim().is_empty() {
-                reader.fault_at(placed.place.clone(), "the source is empty", "name the manual and the page");
-            }
-            if !origin.is_settled() && origin.note.is_none() {
-                let help = "add 'note' with what is not certain";
-                reader.fault_at(placed.place.clone(), format!("{} is unconfirmed", placed.row.fact()), help);
-            }
-        }
-    }
-    for placed in &tables.behaviours {
-        if placed.row.value == "unknown" && placed.row.origin.mark == Mark::Common {
-            let help = "write 'confirmed = false', or the answer";
-            reader.fault_at(placed.place.clone(), "an answer that is 'unknown' is not common", help);
-        }
-    }
-    section(reader, &tables.forms);
-    section(reader, &tables.limits);
-    section(reader, &tables.forbidden);
-    section(reader, &tables.operators);
-    section(reader, &tables.functions);
-    section(reader, &tables.statements);
-    section(reader, &tables.behaviours);
-    section(reader, &tables.variables);
-    section(reader, &tables.in_use);
-    section(reader, &tables.same_cells);
-    section(reader, &tables.system);
-    section(reader, &tables.words);
-    section(reader, &tables.codes);
-    section(reader, &tables.arguments);
-    section(reader, &tables.settings);
 }

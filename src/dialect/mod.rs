@@ -10,6 +10,7 @@ mod acts;
 mod bare_shapes;
 mod check;
 mod check_codes;
+mod check_sources;
 mod check_system;
 mod control;
 mod control_codes;

@@ -40,6 +40,9 @@ pub struct Origin {
     /// What is not certain, or what to beware of.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// The fact that the row rests on, as `behaviour:axes.numbered`: it is no surer than that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rests: Option<String>,
     /// The base that the row stands in; none for a row of the control's own table.
     #[serde(skip)]
     pub table: Option<String>,
@@ -48,7 +51,7 @@ pub struct Origin {
 impl Origin {
     /// What a machine profile says.
     pub(super) fn of_profile(note: Option<String>) -> Self {
-        Self { source: PROFILE.into(), mark: Mark::Confirmed, note, table: None }
+        Self { source: PROFILE.into(), mark: Mark::Confirmed, note, ..Self::default() }
     }
 
     /// True where a maker's text, or the owner of the machine, says so.
@@ -71,15 +74,16 @@ pub(super) struct Written {
     pub common: Option<Vec<String>>,
     pub cites: Option<String>,
     pub note: Option<String>,
+    pub rests: Option<String>,
 }
 
 /// Their names.
-pub(super) const KEYS: &[&str] = &["source", "confirmed", "common", "cites", "note"];
+pub(super) const KEYS: &[&str] = &["source", "confirmed", "common", "cites", "note", "rests"];
 
 impl Written {
     /// What they say; else what is wrong with them, and what to do.
     pub fn judged(self) -> Result<Origin, (String, &'static str)> {
-        let Self { source, confirmed, common, cites, note } = self;
+        let Self { source, confirmed, common, cites, note, rests } = self;
         let Some(names) = common else {
             let source =
                 source.ok_or(("the row has no source".into(), "name the manual and the page in 'source'"))?;
@@ -88,7 +92,7 @@ impl Written {
                 return Err(("'cites' stands without 'common'".into(), help));
             }
             let mark = if confirmed.unwrap_or(true) { Mark::Confirmed } else { Mark::Unconfirmed };
-            return Ok(Origin { source, mark, note, table: None });
+            return Ok(Origin { source, mark, note, rests, table: None });
         };
         if confirmed.is_some() {
             let help = "keep the one that is so";
@@ -97,7 +101,7 @@ impl Written {
         independent(&names, cites.as_deref())?;
         let mut all: Vec<String> = source.into_iter().chain(names).collect();
         all.extend(cites.map(|manual| format!("after {manual}")));
-        Ok(Origin { source: all.join("; "), mark: Mark::Common, note, table: None })
+        Ok(Origin { source: all.join("; "), mark: Mark::Common, note, rests, table: None })
     }
 }
 

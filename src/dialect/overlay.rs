@@ -16,6 +16,7 @@ impl Control {
         let mut overlay = Overlay::new(profile);
         overlay.check_dialect(entry);
         overlay.keep_answers(&mut dialect);
+        leave_open(&mut dialect);
         let settings = overlay.settings(&dialect);
         overlay.apply(&mut dialect, &settings);
         overlay.check_machine(&dialect);
@@ -35,6 +36,7 @@ impl Control {
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
+        Overlay::rest(&mut dialect);
         let Overlay { mut reader, profile, .. } = overlay;
         if !reader.faults.is_empty() {
             return Err(reader.faults);
@@ -66,6 +68,16 @@ impl Control {
                 overlay.unknown_dialect();
                 Err(overlay.reader.faults)
             }
+        }
+    }
+}
+
+/// What the table leaves to a setting is open until the profile states it.
+fn leave_open(dialect: &mut Dialect) {
+    for row in &mut dialect.behaviours {
+        if row.question.may_hang_on_setting(&row.value) && !row.question.answers().admits(&row.value) {
+            row.value = "unknown".into();
+            row.origin.mark = Mark::Unconfirmed;
         }
     }
 }

@@ -8,6 +8,9 @@ use Answers::OneOf;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 use std::fmt;
 
+/// The answer of a table whose source leaves the question to a setting of the machine, or to its builder.
+pub(super) const SETTING: &str = "setting";
+
 /// The answers that a question may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answers {
@@ -32,7 +35,7 @@ impl Answers {
     pub fn written(self, among: &[String]) -> String {
         let OneOf(words) = self else { return "NUMBER".into() };
         let is_among = |word: &str| among.is_empty() || among.iter().any(|one| one == word);
-        let settles = words.iter().filter(|word| !["unknown", "setting"].contains(word) && is_among(word));
+        let settles = words.iter().filter(|word| !["unknown", SETTING].contains(word) && is_among(word));
         let written: Vec<String> = settles
             .map(|word| match *word {
                 "true" | "false" => (*word).into(),
@@ -118,6 +121,11 @@ impl Question {
         matches!(self, Self::Corners)
     }
 
+    /// True for the answer that a setting gives it, of a question that a table may leave open.
+    pub(super) fn may_hang_on_setting(self, value: &str) -> bool {
+        value == SETTING && self.answers().admits("unknown")
+    }
+
     /// The question whose answer this fact is.
     pub fn of_fact(fact: &str) -> Option<Self> {
         Self::find(fact.strip_prefix("behaviour:")?)
@@ -172,6 +180,7 @@ questions! {
     CallAfterWords "call.after.words" YES, "a subroutine that is called beside words runs when the words are done";
     M99PJumpsHere "m99.p.jumps.here" YES, "M99 P jumps in the running program; false if it returns to \
                                            that block of the caller", if "statement:return.to.sequence";
+    M99PInCalled "m99.p.in.called" YES, "M99 P in a program that others call, or in a subroutine, jumps there too", if "said";
     M99MainRestarts "m99.main.restarts" YES, "M99 in the main program starts it again", if "statement:return.to.sequence";
     M99BlockMovesFirst "m99.block.moves.first" YES, "the words beside M99 act before the return", if "statement:call.macro";
     ArgumentsMixedLaterWins "arguments.mixed.later.wins" YES, "if arguments of both kinds set one local \
@@ -200,7 +209,7 @@ questions! {
     BitsWidth "bits.width" OneOf(&["32", "unknown"]), "how many bits bit operators have", if "operator:and.bits";
     EqualTolerance "equal.tolerance" NUMBER, "how far apart numbers may be and still count as equal";
     RoundHalfAway "round.half.away" YES, "ROUND takes halves away from zero", if "function:round or function:round.places";
-    RoundInAddress "round.in.address" OneOf(&["increment", "whole", "unknown"]), "to what ROUND rounds inside a word", if "function:round";
+    RoundInAddress "round.in.address" OneOf(&["increment", "whole", "unknown"]), "to what ROUND rounds inside a word", if "function:round and form:word=expression";
     RoundPlacesDefault "round.places.default" OneOf(&["unknown", "0", "1", "2", "3", "4", "5"]), "places that the rounding function keeps by default", if "function:round.places";
     FixTowardZero "fix.toward.zero" YES, "FIX (INT) goes toward zero for negative numbers";
     WordRoundsToIncrement "word.rounds.to.increment" YES, "a computed value is rounded to the least increment of its address";
@@ -234,7 +243,7 @@ questions! {
     CycleRunsByDepth "cycle.runs.by.depth" YES, "a block with a new depth or retract plane alone runs the cycle in force";
     CycleRunsByRotary "cycle.runs.by.rotary" YES, "a block with a word of a rotary axis alone runs the cycle in force", if "said";
     CycleStartsSpindle "cycle.starts.spindle" YES, "a drilling cycle starts a spindle that a tool change left standing, and a tap any that stands", if "said";
-    CycleTapFeed "cycle.tap.feed" OneOf(&["feed", "lead", "unknown"]), "what the words of a tapping cycle mean: feed and speed, or speed and lead";
+    CycleTapFeed "cycle.tap.feed" OneOf(&["feed", "lead", "unknown"]), "what the words of a tapping cycle mean: feed and speed, or speed and lead", if "op:cycle.tap";
     TapRigid "tap.rigid" OneOf(&["always", "code", "unknown"]), "whether taps are rigid, so that the feed follows the spindle: always, or by a code before them alone", if "said";
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
@@ -261,6 +270,11 @@ questions! {
     ThreadFlanks "thread.flanks" OneOf(&["leading.first", "trailing.first", "unknown"]), "in which order the passes of a thread that is cut on both flanks take them: first the one \
                                                                                         that leads along the thread, or the other", if "role:thread.infeed";
     CornerLetters "corner.letters" OneOf(&["axes", "letters"]), "how a corner without a comma is written: I, K and R, or C, R and A", if "said";
+    AxesNumbered "axes.numbered" OneOf(&["profile", "unknown"]), "the order in which the axes after the first have the numbers of their variables: that of the axes in the profile", if "said";
+    HoleSidePlane "hole.side.plane" OneOf(&["diameter", "unknown"]), "what the retract plane of a cycle that drills along X of a lathe is: a diameter, as X is", if "said";
+    LogicRank "logic.rank" OneOf(&["listed", "unknown"]), "the order of AND, OR, XOR and NOT without brackets: as the table ranks them", if "said";
+    ModalGroups "modal.groups" OneOf(&["code", "unknown"]), "what a program reads of the modal groups other than motion: the code itself", if "said";
+    OffsetNumbers "offset.numbers" OneOf(&["listed", "unknown"]), "the numbers of tool lengths and cutter radii in a memory of another make: as the table lists them", if "said";
     Corners "corners" OneOf(&["words", "moves"]), "how corners and angles of lines are written in programs for this lathe: by their words, or as moves", if "said";
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
@@ -339,6 +353,7 @@ questions! {
     RadiusOffsetActiveTool "radius.offset.active.tool" YES, "cutter compensation without an offset word takes the active tool's", if "said";
     RadiusByLengthWord "radius.by.length.word" YES, "the word of the tool length beside a code of the cutter radius names that radius, where the block has no number of a radius", if "said";
     LengthWordPicksRadius "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too", if "said";
+    RadiusWordNames "radius.word.names" OneOf(&["radius", "unknown"]), "what the number of another tool than the one in the spindle does beside a code of the cutter radius, where its letter changes tools: it names a radius, and changes no tool", if "said";
     LengthNeverNamed "length.never.named" OneOf(&["zero", "tool", "unknown"]), "the tool length that its code takes where no number was ever named: none, or that of the tool in the spindle", if "op:length.plus";
     RadiusStartsOnArc "radius.starts.on.arc" YES, "cutter compensation may begin and end on an arc", if "said";
     RadiusStillBlocks "radius.still.blocks" YES, "blocks without a move may stand between moves with cutter compensation, however many", if "said";

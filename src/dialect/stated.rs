@@ -3,13 +3,14 @@
 use super::check::{LIMITS, STATEMENTS};
 use super::overlay::Overlay;
 use super::profile::Plain;
-use super::questions::Answers;
+use super::questions::{Answers, SETTING};
 use super::reader::closest;
 use super::{Behaviour, CodeHead, Control, Dialect, Mark, Origin, Question, Row, matters, registry};
 use crate::canon::Func;
+use std::collections::BTreeMap;
 
 /// Answers that leave a question open.
-const OPEN: [&str; 2] = ["unknown", "setting"];
+const OPEN: [&str; 2] = ["unknown", SETTING];
 
 /// Limits that may be 0: a control need not have such a thing at all.
 const MAY_BE_NONE: [&str; 1] = ["brackets"];
@@ -80,7 +81,7 @@ impl Overlay {
             let mut found = 0;
             each_row(dialect, &mut |name, origin| {
                 if name == fact {
-                    origin.mark = Mark::Confirmed;
+                    (origin.mark, origin.rests) = (Mark::Confirmed, None);
                     found += 1;
                 }
             });
@@ -103,6 +104,17 @@ impl Overlay {
 }
 
 impl Overlay {
+    /// What rests on a question is no surer than its answer.
+    pub(super) fn rest(dialect: &mut Dialect) {
+        let answers = dialect.behaviours.iter().map(|row| (row.question.fact(), row.origin.mark));
+        let answers: BTreeMap<&str, Mark> = answers.collect();
+        each_row(dialect, &mut |_, origin| {
+            if let Some(mark) = origin.rests.as_deref().and_then(|fact| answers.get(fact)) {
+                origin.mark = origin.mark.min(*mark);
+            }
+        });
+    }
+
     /// True for a G code that no row of the control's table has, of no setting and no option. M codes may be of the
     /// machine's builder.
     fn names_no_code(&self, fact: &str) -> bool {
@@ -213,6 +225,17 @@ fn is_code(name: &str) -> bool {
 }
 
 impl Control {
+    /// The fact that a fact rests on, where a row of it names one.
+    pub(super) fn rests(&self, fact: &str) -> Option<&str> {
+        fn of<'d, T: Row>(rows: &'d [T], fact: &str) -> Option<&'d str> {
+            let key = fact.strip_prefix(T::KIND)?.strip_prefix(':')?;
+            rows.iter().filter(|row| row.key() == key).find_map(|row| row.origin().rests.as_deref())
+        }
+        let d = self.dialect();
+        let of_row = of(&d.system, fact).or_else(|| of(&d.codes, fact));
+        of_row.or_else(|| of(&d.operators, fact)).or_else(|| of(&d.words, fact))
+    }
+
     /// How sure a fact is: of several rows of its name, as sure as the least sure; unconfirmed where it has no row.
     pub fn mark(&self, fact: &str) -> Mark {
         fn least<T: Row>(rows: &[T], fact: &str) -> Option<Mark> {

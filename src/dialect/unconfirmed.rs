@@ -41,6 +41,11 @@ impl Control {
     /// The construct at `span` rests on a fact of this control, named as a machine profile confirms it:
     /// `behaviour:load.sets.condition`.
     pub fn unconfirmed(&self, side: Side, fact: &str, note: Option<&str>, span: Span) -> Diagnostic {
+        // One answer settles all that rests on it.
+        let (fact, note) = match self.rests(fact) {
+            Some(on) => (on, Question::of_fact(on).and_then(|on| self.behaviour(on)?.origin.note.as_deref())),
+            None => (fact, note),
+        };
         let title = &self.dialect().title;
         let asked = Question::of_fact(fact).map(|question| self.taken(question));
         let note = note.filter(|note| Question::of_fact(fact).is_none_or(|asked| asked.meaning() != *note));

@@ -101,7 +101,7 @@ impl Interpreter<'_, '_> {
     pub(super) fn give_back(&mut self, to: Option<u32>) -> Flow<Next> {
         if let Some(number) = to {
             if self.level != Level::Main {
-                self.session.act_as(Question::M99PJumpsHere, "true");
+                self.session.act_as(Question::M99PInCalled, "true");
             }
             self.jump(number)?;
             return Ok(Next::On);

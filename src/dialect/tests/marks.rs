@@ -2,7 +2,7 @@
 
 use super::{faults, refused, table};
 use crate::diag::{Code, Severity};
-use crate::dialect::{Base, Control, Dialect, Mark, Side, load};
+use crate::dialect::{Base, Control, Dialect, Mark, Question, Side, load};
 use crate::text::Span;
 
 fn row(keys: &str) -> String {
@@ -96,4 +96,30 @@ fn a_common_fact_brings_a_note() {
     assert_eq!(plain.mark("code:M77"), Mark::Unconfirmed);
     let checked = Control::from_profile(&format!("dialect = \"fanuc\"\nconfirm = [\"{fact}\"]")).unwrap();
     assert_eq!(checked.mark(fact), Mark::Confirmed);
+}
+
+#[test]
+fn what_a_setting_decides_is_sure_and_still_open() {
+    let row = |mark: &str| format!(r#"behaviours = [{{ name = "skip.levels", value = "setting", {mark} }}]"#);
+    assert_eq!(faults(&row(r#"source = "s""#)), "");
+    assert_eq!(faults(&row(r#"common = ["POST", "BOOK"]"#)), "");
+    refused(
+        &row(r#"source = "s", confirmed = false, note = "n""#),
+        "no source says that a setting answers it",
+    );
+    // A question that no table leaves open has no such answer.
+    let closed = r#"behaviours = [{ name = "repeat.counts", value = "setting", source = "s" }]"#;
+    refused(closed, "'setting' is not a value of repeat.counts");
+}
+
+#[test]
+fn what_a_setting_decides_is_asked_until_the_profile_says_it() {
+    let told = |more: &str| {
+        let control = Control::from_profile(&format!("dialect = \"fanuc\"\n{more}")).unwrap();
+        let row = control.behaviour(Question::LengthMoves).unwrap();
+        (row.value.clone(), row.origin.mark)
+    };
+    assert_eq!(told(""), ("unknown".into(), Mark::Unconfirmed));
+    assert_eq!(told("[parameters]\n\"5006.6\" = 0"), ("true".into(), Mark::Confirmed));
+    assert_eq!(told("[behaviours]\nlength.moves = false"), ("false".into(), Mark::Confirmed));
 }

@@ -4,8 +4,9 @@
 //! a word that its code does not take. So where only the target's code takes a dwell, it is told one of 0, and the
 //! dwell of before is told again where the next code that takes one has none of its own. A word that only the
 //! source's code takes is refused, and so is a dwell of before that only the source's code takes; a dwell of 0 is left
-//! out. Side condition: which cycle is in force is known, and which dwell lasts into it on every way. Counter-example:
-//! `G82 P500 .. G83`, where the source's G83 takes no P and the target's waits half a second.
+//! out. Side conditions: which cycle is in force is known, and which dwell lasts into it on every way; a person looks where
+//! the letter of that dwell means something else beside the next code. Counter-example: `G82 P500 .. G83`, where the
+//! source's G83 takes no P and the target's waits half a second.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -72,6 +73,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         let what = format!(
                             "the dwell of an earlier cycle may still be in force in this one ({op}), and \
                              the target's code takes no dwell: make sure that it is 0"
+                        );
+                        context.add(index, Diagnostic::new(Code::Conditional, span, what));
+                        continue;
+                    }
+                    (false, false, dwell)
+                        if dwell != Dwell::Is(None) && letter_is_another(op, context.target) =>
+                    {
+                        let what = format!(
+                            "the dwell of an earlier cycle may still be in force here, and beside the target's code for \
+                             this cycle ({op}) its letter means something else: write G80 before this cycle"
                         );
                         context.add(index, Diagnostic::new(Code::Conditional, span, what));
                         continue;
@@ -221,6 +232,18 @@ fn begins(nc: &Nc) -> bool {
 /// Whether the source's code for a cycle takes a dwell, and the target's.
 fn sides(op: Op, context: &Context<'_>) -> [bool; 2] {
     [context.source, context.target].map(|control| takes(control, op, Role::CycleDwell))
+}
+
+/// True where the letter of a dwell is that of another word beside the control's code for a cycle.
+fn letter_is_another(op: Op, control: &Control) -> bool {
+    let row = control.code_for(op, &BTreeMap::new());
+    let mut others =
+        row.into_iter().flat_map(|row| &row.words).filter(|(_, role)| **role != Role::CycleDwell);
+    let dwells = |letter: &str| {
+        let mut codes = control.dialect().codes.iter().filter(|row| row.op.is_cycle());
+        codes.any(|row| row.words.get(letter) == Some(&Role::CycleDwell))
+    };
+    others.any(|(letter, _)| dwells(letter))
 }
 
 /// True where the code that the control has for a cycle takes a word.

@@ -14,6 +14,7 @@
 
 mod again;
 mod loaded;
+mod radius;
 
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
@@ -257,6 +258,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let found = state.step(&stmt, &modal, &rules);
                 let result = settle(&mut stmt, (&before, &state), found.unwrap_or_default(), again);
                 let result = found.and(result);
+                if let Some(nc) = stmt.kind.nc() {
+                    radius::ask(nc, state.tool, (index, stmt.site.span), context);
+                }
                 let tool =
                     stmt.kind.nc().filter(|nc| nc.has(Op::ToolChange)).and_then(|nc| nc.word(Role::Tool));
                 computed.extend(tool.filter(|tool| tool.constant().is_none()).map(|_| stmt.site.span));
@@ -310,7 +314,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 }
 
 fn block_says(block: &Block) -> bool {
-    block.stmts.iter().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if names_tools(nc)))
+    block
+        .stmts
+        .iter()
+        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if names_tools(nc) || radius::names(nc)))
 }
 
 /// The word of a tool in a block of its own.

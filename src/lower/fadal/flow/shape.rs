@@ -40,6 +40,8 @@ pub struct Shape {
     pub area_end: Option<usize>,
     /// The first block of the main part; 0 where there are no subroutines.
     pub main: usize,
+    /// True where a block returns to a caller: others call the program.
+    pub returns: bool,
     /// The first block that each jump goal names, and how often it stands.
     pub goals: HashMap<Goal, (usize, usize)>,
     /// The labels of the blocks that jumps go to.
@@ -77,10 +79,11 @@ impl Shape {
             });
             let codes = Codes::new(&block.items, control);
             let steps = steps(&block.items, &codes);
-            if let Some(goal) = return_goal(&block.items, &codes) {
-                wanted.insert(goal);
-            }
-            any_sequence |= returns_computed(&block.items, &codes);
+            let goal = return_goal(&block.items, &codes);
+            let computed = returns_computed(&block.items, &codes);
+            shape.returns |= goal.is_none() && !computed && steps.contains(&Step::Return);
+            wanted.extend(goal);
+            any_sequence |= computed;
             flows |= !steps.is_empty();
             if at_head && let Some(number) = defines(&block.items, &steps) {
                 shape.numbers.entry(number).or_insert(shape.subs.len());

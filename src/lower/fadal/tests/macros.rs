@@ -102,7 +102,14 @@ fn facts_of_macro_lines_are_reported() {
     assert_eq!(found("O1\n#WAIT\n#V1=AX", ""), ["behaviour:position.frame"]);
     assert_eq!(found("O1\n#V1=V(V1/V2)", ""), ["behaviour:index.of.fraction"]);
     let mixed = found("O1\n#IF (V1=0) OR (V2=0) AND (V3=0) THEN V4=1", "");
-    assert!(mixed.contains(&"operator:or".to_owned()), "{mixed:?}");
+    assert!(mixed.contains(&"behaviour:logic.rank".to_owned()), "{mixed:?}");
+}
+
+#[test]
+fn a_jump_back_in_a_called_program_is_asked() {
+    let asked = |text: &str| found(text, "").contains(&"behaviour:m99.p.in.called".to_owned());
+    assert!(asked("O1\nM99 P5\nN5 M99"));
+    assert!(!asked("O1\nM99 P5\nN5 M2"));
 }
 
 #[test]

@@ -103,7 +103,9 @@ impl<'b> Lowering<'b> {
             self.end(TermKind::Return { to: None });
             return Some(());
         };
-        let here = self.rely(Question::M99PJumpsHere, span) != Some("false");
+        let called = self.shape.returns || self.shape.region(self.at).is_some();
+        let question = if called { Question::M99PInCalled } else { Question::M99PJumpsHere };
+        let here = self.rely(question, span) != Some("false");
         // One that no block has goes nowhere: not to the caller's, which no source says.
         if here && let Some(goal) = return_goal(items, codes) {
             let to = self.block_of(&goal, span);
