@@ -76,8 +76,8 @@ impl Machine {
         if let Some((distance, words)) = self.polar_place(command) {
             let pole = if words.distance.is_some() { [0.0; 2] } else { [work[first], work[second]] };
             let (sin, cos) = super::frame::sin_cos(words.angle.unwrap_or(0.0));
-            let least = self.least_length() * self.unit();
-            let place = |far: f64, pole: f64| to_increment(distance.mul_add(far, pole), least);
+            let (least, unit) = (self.least_length(), self.unit());
+            let place = |far: f64, pole: f64| to_increment(distance.mul_add(far, pole) / unit, least) * unit;
             (work[first], work[second]) = (place(cos, pole[0]), place(sin, pole[1]));
         }
         self.frame.machine(&work)

@@ -1,6 +1,6 @@
 //! Constants at a program's head that decide where it goes, edited alike on both sides.
 //!
-//! A literal that a main program assigns at its head is what its operator edits; those further down are edited after them. Where it decides a branch, no
+//! A literal that a main program assigns at its head is what its operator edits. Where it decides a branch, no
 //! circumstances go the other way; so both texts are run anew with another literal there. Which literal of the target is
 //! the same one is found without the compiler: it is the first thing that the target's program assigns to the register that
 //! the lock has for the variable, and it has the same value. Ways that the source goes so count where both sides did the
@@ -44,12 +44,7 @@ impl Verifier<'_, '_> {
         let theirs = constants(target, there, false);
         let numbers = inputs(source, self.program, target).numbers;
         let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
-        let mut all = constants(source, self.program, true);
-        let head = all.len();
-        // Further down it may be the twin of another one: what parts then says nothing.
-        let further = constants(source, self.program, false).into_iter().filter(|found| !all.contains(found));
-        all.extend(further.collect::<Vec<_>>());
-        for (at, constant) in all.into_iter().enumerate().take(CONSTANTS) {
+        for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
             let named = names.variable(&constant.name, source.control, target.control);
             let twin = theirs.iter().find(|twin| Some(&twin.name) == named.as_ref());
             let Some(twin) = twin.filter(|twin| twin.value == constant.value) else { continue };
@@ -58,7 +53,7 @@ impl Verifier<'_, '_> {
                     return;
                 }
                 for_target -= usize::from(self.coverage.is_complete());
-                self.edit(there, (&constant, twin), (value, at < head), &mut steps);
+                self.edit(there, (&constant, twin), value, &mut steps);
             }
         }
     }
@@ -68,7 +63,7 @@ impl Verifier<'_, '_> {
         &mut self,
         there: ProgramRef,
         (ours, theirs): (&Constant, &Constant),
-        (value, at_head): (f64, bool),
+        value: f64,
         steps: &mut u64,
     ) {
         let Job { source, target, names, assumptions, effort, spent } = *self.job;
@@ -76,7 +71,7 @@ impl Verifier<'_, '_> {
         let blocks = text.parse(&source.texts());
         let Some(new_source) = source.edited(self.program, &text, text.own(&blocks)) else { return };
         let told = Constant { value, ..ours.clone() };
-        if !constants(&new_source, self.program, at_head)
+        if !constants(&new_source, self.program, true)
             .iter()
             .any(|c| (&c.name, c.value) == (&told.name, value))
         {
@@ -120,9 +115,6 @@ impl Verifier<'_, '_> {
             value,
         };
         if let Some(witness) = &pair.witness {
-            if !at_head {
-                return;
-            }
             let text = format!(
                 "with {value} for {} in line {} and for {} in line {} they differ: {}",
                 edit.variable, edit.line, edit.register, edit.target_line, witness.what

@@ -54,10 +54,10 @@ fn what_the_page_does_not_describe_is_refused_by_name() {
     // D1, Q3, and codes of measuring.
     for (block, names) in [
         ("G0 X40. U-2.", "place and its increment"),
-        ("G1 X40. C2. F.1", "axis.c"),
+        ("G1 X40. C2. F.1", "the C axis"),
         ("G1 X40. R2. F.1\nG0 X50.", "no straight feed move"),
         ("G1 ,A45. F.1", "by its angle alone"),
-        ("G1 X40. A45. F.1", "axis.a"),
+        ("G1 X40. A45. F.1", "the A axis"),
         ("G36 X40.", "G36"),
         // V2 and V4: polar interpolation.
         ("G12.1 X40.", "not alone in its block"),
@@ -207,8 +207,8 @@ fn what_has_no_place_in_a_contour_stops_the_run() {
     for (inside, number, names) in [
         ("M98 P2\n", "PS0210", "call"),
         ("G65 P2\n", "PS0210", "call"),
-        ("G20\n", "PS0066", "units.inch"),
-        ("G54\n", "PS0066", "wcs.select"),
+        ("G20\n", "PS0066", "Dimensions in inch"),
+        ("G54\n", "PS0066", "work offset"),
         ("#1=2.\n", "", "statement"),
         ("IF[1 EQ 2] GOTO 20\n", "", "statement"),
         ("G1 X41. K2.\n", "PS0051", "another way"),

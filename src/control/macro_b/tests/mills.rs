@@ -103,6 +103,14 @@ fn polar_coordinates_count_from_the_zero_and_under_g91_from_the_tool() {
     for (place, wanted) in places.iter().flatten().zip(wanted.iter().flatten()) {
         assert!((place - wanted).abs() < 1e-9, "{places:?}");
     }
+    // In inches a place ends on 0.0001: 1 at 30 degrees is (0.8660, 0.5), 21.9964 and 12.7 millimetres.
+    let inch = fanuc("O1\nG20G90G17\nG0X0Y0Z5.\nG16X1.Y30.\nM30\n");
+    let last = inch.events.iter().rev().find_map(|event| match &event.what {
+        EventKind::Rapid { to, .. } => Some([to.0[0], to.0[1]]),
+        _ => None,
+    });
+    let [x, y] = last.unwrap_or_default();
+    assert!((x - 21.9964).abs() < 1e-9 && (y - 12.7).abs() < 1e-9, "{x} {y}");
     let unsaid = "machine:polar.word.left.out";
     assert!(!doubts(&run, unsaid));
     assert!(doubts(&fanuc("O1\nG21G90G17\nG0X0Y0Z5.\nG16Y30.\nM30\n"), unsaid));

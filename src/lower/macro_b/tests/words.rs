@@ -121,7 +121,12 @@ fn look_ahead() {
 #[test]
 fn builders_codes_keep_their_numbers() {
     means("fanuc", "M290", "0: nc M=290 | stray");
-    means("haas", "G12I1.F10.", "0: nc G=12 builder=1 feed=10 | stray");
+}
+
+#[test]
+fn a_round_pocket_names_its_circles() {
+    // I: the first circle, K: the last one, Q: the step between them.
+    means("haas", "G12I1.F10.", "0: nc pocket.circle.cw pocket.first=1 feed=10 | stray");
 }
 
 #[test]
