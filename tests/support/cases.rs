@@ -12,6 +12,7 @@
 //! | `ends`, `moves`, `variables` | `tests/interpreter/` | what a run does |
 #![allow(dead_code)] // each test uses its part
 
+use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -79,9 +80,9 @@ pub fn cases(path: &str) -> Vec<Case> {
 }
 
 /// Holds each case to `fault`, which says what is wrong; fails with all faults, or if there are fewer cases than `least`.
-pub fn hold(cases: &[Case], least: usize, fault: impl Fn(&Case) -> Option<String>) {
+pub fn hold(cases: &[Case], least: usize, fault: impl Fn(&Case) -> Option<String> + Sync) {
     let told = |case: &Case| fault(case).map(|fault| format!("{} ({})\n{fault}\n", case.name, case.from));
-    let faults: Vec<String> = cases.iter().filter_map(told).collect();
+    let faults: Vec<String> = cases.par_iter().filter_map(told).collect();
     assert!(faults.is_empty(), "{} of {} cases\n\n{}", faults.len(), cases.len(), faults.join("\n"));
     assert!(cases.len() >= least, "only {} cases were found", cases.len());
 }
