@@ -1,10 +1,13 @@
 //! The facts of a control that the machine acts by, read once.
 
+mod answers;
+
 use super::frame::UnderIncremental;
 use super::lathe::Turning;
 use crate::canon::{Act, Auxiliary, Op, Pause, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, Question};
+pub use answers::{LengthAfter, NoCentre, RadiusTable};
 use std::collections::BTreeMap;
 
 /// A fact: the answer acted by, and its name if nobody confirmed it.
@@ -57,35 +60,6 @@ pub fn yes(control: &Control, question: Question, otherwise: bool) -> Fact<bool>
     fact(control, question, read, otherwise)
 }
 
-/// What the offset values of cutter radii are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RadiusTable {
-    /// Radii.
-    Radius,
-    /// Diameters.
-    Diameter,
-}
-
-/// What a return or a move in machine coordinates does to the tool length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LengthAfter {
-    /// It is in force in the next block.
-    Kept,
-    /// It is gone until the program names it again.
-    Cancelled,
-    /// The same, where the axis of the length moved.
-    CancelledAlong,
-}
-
-/// What becomes of an arc without a centre.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoCentre {
-    /// An alarm.
-    Alarm,
-    /// A straight move.
-    Straight,
-}
-
 /// The facts.
 #[derive(Clone, Debug)]
 pub struct Rules {
@@ -128,8 +102,11 @@ pub struct Rules {
     pub length_acts_at_once: Fact<bool>,
     /// Increments right after a rotation turn about where the tool is.
     pub first_increments: Fact<()>,
+    /// Drilling cycles run in any plane; else under G17 alone.
     pub cycles_in_any_plane: Fact<bool>,
+    /// The tool stays at the depth of a round pocket; else it is back where it began.
     pub pocket_ends_deep: Fact<bool>,
+    /// A peck cycle without the depth of its pecks stops with an alarm.
     pub pecks_need_depth: bool,
     /// The time of a wait is that of the cycle in force too.
     pub dwell_is_of_cycle: Fact<bool>,

@@ -18,6 +18,7 @@ use crate::ir::analysis::modal_facts::replace_statements;
 use crate::ir::{
     Block, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
 };
+use crate::legalize::layout::blanks::is_empty;
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
@@ -106,12 +107,6 @@ const HELD: &str = "the limit on reading ahead is dropped: the target has none. 
 
 const UNREAD: &str = "the limit on reading ahead is dropped: the target has none, and nothing in this program reads or writes what reading \
      ahead could change";
-
-/// True for a block without a word, a number or a comment.
-fn is_empty(stmt: &Stmt) -> bool {
-    let site = &stmt.site;
-    matches!(stmt.kind, StmtKind::Comment) && site.comments.is_empty() && !site.sequence.is_some()
-}
 
 /// True for a program that limits how far the control reads ahead.
 fn is_limited(program: &Program) -> bool {

@@ -7,11 +7,12 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Units};
+use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
 use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::Features;
+use crate::legalize::moves::increments::parts_of_unit;
 use crate::legalize::moves::short_arcs::stands;
 use crate::legalize::{Context, Modal, ModalFacts};
 
@@ -225,13 +226,8 @@ fn holes(
     let [Some(x), Some(y)] = place.0 else {
         return Err("it is not known here where the tool stands: write X and Y as numbers before it");
     };
-    let inch = match (state.op(Group::Units), source.units()) {
-        (Some(op), _) => op == Op::Inch,
-        (None, Some(units)) => units == Units::Inch,
-        (None, None) => return Err("it is not known here whether lengths are inches or millimetres"),
-    };
-    let numbers = source.numbers();
-    let parts = (1.0 / if inch { numbers.increment_inch } else { numbers.increment_mm }).round();
+    let parts = parts_of_unit(state, source);
+    let parts = parts.ok_or("it is not known here whether lengths are inches or millimetres")?;
     // No minus before 0.
     let counted = |place: f64| (place * parts).round() / parts + 0.0;
     let hole = |at: u32| {

@@ -10,9 +10,10 @@ mod path;
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Side, Units};
+use crate::dialect::{Control, Question, Side};
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::features::Features;
+use crate::legalize::moves::increments::parts_of_unit;
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use crate::legalize::{Context, Modal};
 use path::{Pocket, write};
@@ -234,13 +235,8 @@ fn read(
     if count < 1.0 || count.fract() != 0.0 || count > MOST as f64 || count > 1.0 && absolute {
         return Err("L is not a whole number from 1 to 100, or repeats the same depth under G90");
     }
-    let inch = match (state.op(Group::Units), source.units()) {
-        (Some(op), _) => op == Op::Inch,
-        (None, Some(units)) => units == Units::Inch,
-        (None, None) => return Err("it is not known here whether lengths are inches or millimetres"),
-    };
-    let numbers = source.numbers();
-    let parts = (1.0 / if inch { numbers.increment_inch } else { numbers.increment_mm }).round();
+    let parts = parts_of_unit(state, source);
+    let parts = parts.ok_or("it is not known here whether lengths are inches or millimetres")?;
     let words = [number(Role::PocketFirst)?, number(Role::PocketLast)?, number(Role::PocketStep)?];
     let circles = circles(words, parts)?;
     if circles.len() * count as usize > MOST {

@@ -316,3 +316,13 @@ fn convert(value: &mut Expr, angle: bool, units: Option<Units>, source: &Control
     *inner = Expr::Number(*count / per_unit.round());
     true
 }
+
+/// Least increments of the source in a unit of length; none if the unit is not known.
+pub(in crate::legalize) fn parts_of_unit(state: &Modal, source: &Control) -> Option<f64> {
+    let named = state.op(Group::Units).map(|op| if op == Op::Inch { Units::Inch } else { Units::Metric });
+    let numbers = source.numbers();
+    named.or(source.units()).map(|unit| match unit {
+        Units::Inch => (1.0 / numbers.increment_inch).round(),
+        Units::Metric => (1.0 / numbers.increment_mm).round(),
+    })
+}

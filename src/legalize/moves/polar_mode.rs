@@ -11,18 +11,20 @@
 
 mod known;
 
+use super::increments::parts_of_unit;
 use super::rotations::reads_position;
 use super::short_arcs::{other_planes, vacant};
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Units};
+use crate::dialect::Control;
+use crate::ir::analysis::ModalFacts;
 use crate::ir::analysis::over_calls::OverCalls;
-use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
     BinOp, BlockId, Class, Expr, Module, Nc, NcItem, OF_NO_LEVEL, Place, SourceInfo, Stmt, StmtKind, Stmts,
     TermKind, Var,
 };
 use crate::legalize::Context;
+use crate::legalize::layout::blanks::is_empty;
 use known::{Kept, Polar, Rules, count};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -45,6 +47,8 @@ const UNKNOWN: &str =
 const BESIDE: &str = "X and Y beside this code are not polar ones, or choose what they count from: end the polar coordinates before it";
 const CENTRE: &str = "an arc in polar coordinates by its centre: write its radius R";
 const OTHERS: &str = "other words stand beside an angle in increments: give them a block of their own";
+const CALLS: &str =
+    "an angle in increments, and a macro is called after each move: write the angle under G90";
 const COUNT: &str = "the count of this block is not a whole number from 1 to 1000";
 const BARE: &str = "the angle has no decimal point, and no source says which increments it counts: write one";
 const VACANT: &str = "a word of this polar move may be vacant: give it a value in every run";
@@ -90,7 +94,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     flat: state.op(Group::Plane).map_or(!planes[index], |op| op == Op::PlaneXy),
                     vacant: vacant.contains(&true),
                     kept,
-                    parts: parts(&state, context.source),
+                    // A finer grid where the unit is not known.
+                    parts: parts_of_unit(&state, context.source).unwrap_or(1e6),
+                    calls: state.may_call(),
                 };
                 if let Err(why) = rules.write(stmt, &mut out) {
                     findings.push((Code::NoEquivalent, why, span));
@@ -150,20 +156,6 @@ fn registers(module: &Module, facts: &ModalFacts, known: &OverCalls<Polar>) -> [
     kept
 }
 
-/// Increments of a unit of length; of a finer grid where the unit is not known.
-fn parts(state: &Modal, source: &Control) -> f64 {
-    let unit = match state.op(Group::Units) {
-        Some(op) => Some(if op == Op::Inch { Units::Inch } else { Units::Metric }),
-        None => source.units(),
-    };
-    let numbers = source.numbers();
-    match unit {
-        Some(Units::Inch) => (1.0 / numbers.increment_inch).round(),
-        Some(Units::Metric) => (1.0 / numbers.increment_mm).round(),
-        None => 1e6,
-    }
-}
-
 /// A block, and what is in force there.
 struct Move {
     before: Polar,
@@ -171,6 +163,8 @@ struct Move {
     distance: Option<Op>,
     flat: bool,
     vacant: bool,
+    /// True where a macro is called after each move.
+    calls: bool,
     kept: [bool; 2],
     parts: f64,
 }
@@ -193,11 +187,11 @@ impl Move {
         };
         nc.items.retain(|item| !matches!(item, NcItem::Op(Op::PolarOn | Op::PolarOff)));
         if switches && nc.items.is_empty() {
+            stmt.kind = StmtKind::Comment;
             // The code was all of it.
-            if stmt.site.comments.is_empty() && stmt.site.sequence.get().is_none() {
+            if is_empty(&stmt) {
                 return Ok(());
             }
-            stmt.kind = StmtKind::Comment;
         }
         match (fault, self.after, &stmt.kind) {
             (None, Polar::On { length, angle }, StmtKind::Nc(_)) if moves => {
@@ -225,6 +219,7 @@ impl Move {
             () if arc => Some(CENTRE),
             () if self.distance.is_none() => Some(UNKNOWN),
             () if adds && nc.word(Role::X).is_some() => Some(INCREMENTS),
+            () if adds && self.calls => Some(CALLS),
             () if adds && !nc.items.iter().all(own) => Some(OTHERS),
             () if adds && count(nc).is_none() => Some(COUNT),
             () => None,

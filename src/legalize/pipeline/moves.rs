@@ -34,7 +34,8 @@ pub(super) const MOVES: &[Pass] = &[
     )
     .when(rotary_ways::concerns),
     Pass::rewrites("polar-mode", "polar coordinates become rectangular ones", polar_mode::run)
-        .when(|c, context| c.op(Op::PolarOn) && polar_mode::concerns(context.target)),
+        .when(|c, context| c.op(Op::PolarOn) && polar_mode::concerns(context.target))
+        .needs(&["modal-calls"]),
     Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
         .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance))
         .needs(&["polar-mode"]),

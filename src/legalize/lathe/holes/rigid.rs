@@ -19,9 +19,3 @@ pub(super) fn drop_rigid(stmt: &mut Stmt, target: &Control, again: Option<f64>) 
         stmt.kind = StmtKind::Comment;
     }
 }
-
-/// True of a block that says nothing, and that no jump can name.
-pub(super) fn is_empty(stmt: &Stmt) -> bool {
-    let site = &stmt.site;
-    matches!(stmt.kind, StmtKind::Comment) && site.comments.is_empty() && site.sequence.get().is_none()
-}

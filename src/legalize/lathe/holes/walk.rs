@@ -1,6 +1,6 @@
 //! The walk through the drilling blocks of a program.
 
-use super::rigid::{drop_rigid, is_empty};
+use super::rigid::drop_rigid;
 use super::waits::{Waits, names_offset, other_waits};
 use super::{by_place, by_step, drills};
 use crate::assume::Predicate;
@@ -11,6 +11,7 @@ use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKi
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::place::{Place, changes_coordinates};
 use crate::legalize::lathe::straight::entered_straight;
+use crate::legalize::layout::blanks::is_empty;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use std::collections::BTreeMap;

@@ -1,0 +1,30 @@
+//! Answers that are more than yes or no.
+
+/// What the offset values of cutter radii are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RadiusTable {
+    /// Radii.
+    Radius,
+    /// Diameters.
+    Diameter,
+}
+
+/// What a return or a move in machine coordinates does to the tool length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthAfter {
+    /// It is in force in the next block.
+    Kept,
+    /// It is gone until the program names it again.
+    Cancelled,
+    /// The same, where the axis of the length moved.
+    CancelledAlong,
+}
+
+/// What becomes of an arc without a centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoCentre {
+    /// An alarm.
+    Alarm,
+    /// A straight move.
+    Straight,
+}
