@@ -293,8 +293,9 @@ fn free_or_system(reader: &mut Reader, tables: &Tables) {
     for placed in tables.variables.iter().filter(|placed| placed.row.class != "letter") {
         let class = &placed.row;
         let system = tables.system.iter().map(|system| &system.row).find(|system| {
+            let Some((first, last)) = system.first.zip(system.last()) else { return false };
             system.name == class.name
-                && (class.first..=class.last)
+                && (class.first.max(first)..=class.last.min(last))
                     .take(100_000)
                     .any(|number| system.subscripts_of(number).is_some())
         });
