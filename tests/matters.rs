@@ -155,3 +155,12 @@ fn a_lathe_is_doubted_where_it_is_no_mill() {
     let mill = unsure("", "O1\nT1M6\nG0X10.\nG1X5.F100.\nM30\n");
     assert!(!mill.contains(feed) && !mill.contains(tool), "{mill:?}");
 }
+
+/// M6 stands beside its T in every program of the manual (seed 000:457): what it does alone no source says.
+#[test]
+fn a_tool_change_without_its_tool_is_doubted_of_a_fadal() {
+    let fact = "machine:tool.change.alone";
+    assert!(unsure_on("fadal", "", "N1 O1\nN2 T2\nN3 M6\nN4 M2\n").contains(fact));
+    assert!(!unsure_on("fadal", "", "N1 O1\nN2 M6 T2\nN3 M2\n").contains(fact));
+    assert!(!unsure_on("fanuc", "", "O1\nT2\nM6\nM30\n").contains(fact));
+}

@@ -164,6 +164,9 @@ pub const LIMITS: &[&str] = &[
     "lookahead",
     "macro.lines",
     "g.codes",
+    "number.digits",
+    "block.length",
+    "rotary.turn",
 ];
 
 fn names(reader: &mut Reader, tables: &Tables) {

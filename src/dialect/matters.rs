@@ -98,6 +98,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:state.larger", "a state takes a larger number than the table says"),
     ("machine:sub.area.end.again", "a second end of the subroutines ends the program"),
     ("machine:test.of.code", "a test of a code asks what is in force in its group"),
+    ("machine:tool.change.alone", "a tool change without a tool word takes the tool that was named last"),
     ("machine:tool.zero", "the tool in the spindle stays active when tool 0 takes its length away"),
     ("machine:word.twice", "of an axis word that stands twice in its block the later one counts"),
     ("machine:word.without.meaning", "a word that has no meaning on the control does nothing"),

@@ -306,6 +306,9 @@ impl<'r> Interpreter<'r, '_> {
                 break;
             }
             let session = &mut self.session;
+            if read.command.has(Op::ToolChange) && read.command.word(Role::Tool).is_none() {
+                session.trace.doubt("machine:tool.change.alone");
+            }
             session.machine.run(&read.command, &mut session.trace)?;
             self.moving |= moves;
             if moves {

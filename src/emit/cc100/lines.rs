@@ -4,10 +4,13 @@
 //! stand there: it waits for the next block.
 
 use super::Emitter;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Side, to_confirm};
 use crate::emit::common::comments::{spelled, wrap};
 use crate::emit::common::digits::write_integer;
 use crate::ir::{Comment, SourceInfo};
 use crate::text::Span;
+use std::collections::BTreeSet;
 
 /// Characters of a comment: the longest that the course prints has 63 (seed 004:1570).
 const COMMENT: usize = 63;
@@ -31,6 +34,8 @@ pub(super) struct Page<'p> {
     stopped: bool,
     /// True if a variable is none of those for programs.
     pub crowded: bool,
+    /// What is longer than any source shows and has been told.
+    told: BTreeSet<&'static str>,
 }
 
 impl Page<'_> {
@@ -115,7 +120,35 @@ impl<'p> Emitter<'p> {
         }
         let start = self.head();
         self.out.text.extend_from_slice(&text);
+        let length = self.out.text.len() - start;
+        self.beyond("number.digits", digits(&text), "a number");
+        self.beyond("block.length", length, "a block");
         self.end_line(start);
+    }
+
+    /// Reports what is longer than the control is known to take: once a program where no source says how long it may be.
+    fn beyond(&mut self, limit: &'static str, found: usize, what: &str) {
+        let Some(row) = self.control.limit_row(limit) else { return };
+        let Some(most) = row.max.filter(|most| found > *most as usize) else { return };
+        let title = &self.control.dialect().title;
+        let (unit, code) = match limit {
+            "number.digits" => ("digits", Code::NumberTooLong),
+            _ => ("characters", Code::LineTooLong),
+        };
+        if row.origin.is_settled() {
+            let message = format!("{what} of {found} {unit}, and the {title} takes {most}");
+            return self.out.refuse(code, message);
+        }
+        if !self.page.told.insert(limit) {
+            return;
+        }
+        let note = row.origin.note.as_deref().unwrap_or("not stated");
+        let fact = format!("limit:{}", row.name);
+        let message =
+            format!("{what} of {found} {unit}, and no source shows one of more than {most}: {note}");
+        let help = to_confirm(&fact, Side::Target);
+        let found = Diagnostic::new(Code::UnconfirmedFact, self.out.span, message);
+        self.out.emitted.findings.push(found.with_help(help).with_fact(fact.as_str()));
     }
 
     /// Ends the line of a stop, and writes the message that it shows after it.
@@ -168,6 +201,16 @@ impl<'p> Emitter<'p> {
         }
         self.out.push('\n');
     }
+}
+
+/// Digits of the longest number of a block; a zero before the point is none.
+fn digits(text: &[u8]) -> usize {
+    let numbers = text.split(|byte| !byte.is_ascii_digit() && *byte != b'.');
+    let count = |number: &[u8]| {
+        let number = number.strip_prefix(b"0.").unwrap_or(number);
+        number.iter().filter(|byte| byte.is_ascii_digit()).count()
+    };
+    numbers.map(count).max().unwrap_or(0)
 }
 
 /// A text in capital letters, without brackets.

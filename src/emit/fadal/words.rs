@@ -188,6 +188,8 @@ impl<'p> Emitter<'p> {
         };
         match value.constant() {
             Some(number) if role.is_act_word() => self.out.number(number, crate::dialect::measures(letter)),
+            // The speed of a tap stands in F, whose numbers have a point as those of every word that measures.
+            Some(number) if letter == 'F' => self.out.number(number, true),
             _ => self.word_value(role, value, letter == 'R'),
         }
     }

@@ -86,11 +86,13 @@ impl Programmed {
                 // A rotation takes the tool along only where it runs the cycle in force.
                 let cycle = modal.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff);
                 let turned = nc.has(Op::RotateOff) || (nc.has(Op::RotateOn) && !cycle);
-                let moves = nc.ops().all(|op| keeps_coordinates(op) || op == Op::SelectWork);
-                if turned || modal.may_call() || !moves {
+                let moves = nc.ops().all(|op| keeps_coordinates(op) || changes_coordinates(op));
+                let placed = nc.word(Role::X).is_some() || nc.word(Role::Y).is_some();
+                let stays_off = nc.has(Op::RadiusOff) && !placed;
+                if turned || modal.may_call() || !moves || stays_off {
                     *self = NOWHERE;
                 } else if !nc.ops().all(keeps_coordinates) {
-                    // An offset that the block names shifts what it was, not what the block's own words say.
+                    // An offset or a unit that the block names changes what it was, not what the block's own words say.
                     *self = NOWHERE;
                     self.moved([nc.word(Role::X), nc.word(Role::Y)], modal.op(Group::Distance));
                 } else if !nc.has(Op::RotateOn) {
@@ -118,14 +120,43 @@ impl Programmed {
     }
 }
 
-/// True for what leaves the meaning of coordinates alone.
+/// True for what changes the meaning of coordinates from its block on.
+fn changes_coordinates(op: Op) -> bool {
+    op == Op::SelectWork || op.group() == Group::Units
+}
+
+/// True for what leaves the meaning of coordinates alone. The end of compensation does, but without a move the tool stands beside
+/// its words after it.
 fn keeps_coordinates(op: Op) -> bool {
     use Group::*;
     let group = op.group();
     matches!(
         group,
-        Motion | Cycle | Distance | FeedMode | LengthComp | ReturnPlane | Rotation | Spindle | Coolant
-    ) || op == Op::CycleHere
+        Motion
+            | Cycle
+            | Distance
+            | FeedMode
+            | RadiusComp
+            | LengthComp
+            | ReturnPlane
+            | PathMode
+            | SpeedMode
+            | Rotation
+            | Spindle
+            | Coolant
+    ) || matches!(
+        op,
+        Op::CheckInch
+            | Op::CheckMetric
+            | Op::PlaneXy
+            | Op::PlaneZx
+            | Op::PlaneYz
+            | Op::CycleHere
+            | Op::Dwell
+            | Op::ExactStopOnce
+            | Op::Stop
+            | Op::OptionalStop
+    )
 }
 
 /// True where only variables and numbers are read, and none that may be vacant: a vacant word is none.

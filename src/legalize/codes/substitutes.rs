@@ -24,6 +24,11 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
         "exact stop is dropped: the target has no such code, and rounds corners or stops at them as it is set",
     ),
     (
+        Op::ExactStopOnce,
+        None,
+        "exact stop at the end of a block is dropped: the target has no such code, and rounds corners or stops at them as it is set",
+    ),
+    (
         Op::CuttingMode,
         None,
         "the end of exact stop is dropped: the target has no such code, and rounds corners or stops at them as it is set",

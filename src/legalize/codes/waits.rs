@@ -189,7 +189,8 @@ fn reads(e: &Expr, limits: bool) -> bool {
     e.walk(&mut |e| {
         found |= match e {
             Expr::System(state, _) if limits => state.is_read_early(),
-            Expr::System(state, _) => state.is_changed_by_moves(),
+            // The tool in the spindle is that of the last change that was made, not of one that was read.
+            Expr::System(state, _) => state.is_changed_by_moves() || *state == Sys::ActiveTool,
             _ => false,
         }
     });

@@ -86,6 +86,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let Bare { question, agree, drills } =
                     bare_ones[if turns { 2 } else { usize::from(!defines) }];
                 let asked = here || bare && !agree;
+                // Under compensation the tool stands beside the words.
+                let beside = matches!(state.op(Group::RadiusComp), Some(Op::RadiusLeft | Op::RadiusRight));
+                let words = || {
+                    let words = named.as_ref().and_then(Programmed::words);
+                    words.filter(|_| across[0].0 == Role::X && !beside)
+                };
                 if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
                     let what = "the plane is not known here, so neither is the axis that the cycle drills along: \
                          write G17, G18 or G19 before it";
@@ -113,7 +119,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                          a position. Check that the target accepts L0",
                     )
                 } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
-                    match named.as_ref().and_then(Programmed::words).filter(|_| across[0].0 == Role::X) {
+                    match words() {
                         Some([x, y]) => {
                             nc.items.extend([NcItem::Word(Role::X, x), NcItem::Word(Role::Y, y)]);
                             Some(
@@ -130,7 +136,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         }
                     }
                 } else if here && !placed {
-                    let words = named.as_ref().and_then(Programmed::words).filter(|_| across[0].0 == Role::X);
+                    let words = words();
                     if stands.is_none() && words.is_none() && state.op(Group::Distance) == Some(Op::Absolute)
                     {
                         let what = "the cycle runs where the tool stands, which is not known here: write X and Y \

@@ -36,10 +36,13 @@ pub(super) use starts::{Vacant, vacant};
 use std::collections::BTreeSet;
 use turn::Turn;
 
-/// True if the target takes a radius, and no source says from where a centre counts there.
+/// True if the target takes a radius, and no source says from where a centre counts there, or the shorter arc has a minus: its
+/// arcs are then written by their radius, whatever its profile says of centres.
 pub fn concerns(target: &Control) -> bool {
+    let is = |question, value| target.behaviour(question).is_some_and(|row| row.value == value);
     let unknown = target.behaviour(Question::ArcCentre).is_none_or(|row| row.value == "unknown");
-    unknown && target.letter(Role::ArcRadius, None).is_some()
+    let opposite = is(Question::ArcRadiusNegative, "short");
+    (unknown || opposite) && target.letter(Role::ArcRadius, None).is_some()
 }
 
 const PLANE: &str = "an arc in another plane than XY: no source says what the target's planes do";
@@ -158,13 +161,18 @@ pub(super) fn other_planes(module: &Module, context: &Context<'_>) -> Vec<bool> 
     others
 }
 
+/// From the start of an arc to its centre, by its radius and the way to its end; none if there is no such arc.
+pub(super) fn centre(way: [f64; 2], radius: f64, ccw: bool) -> Option<[f64; 2]> {
+    Arc::by_radius(way, radius, ccw).map(|arc| arc.centre().map(round))
+}
+
 /// True for a block with words of an arc's centre or radius.
 fn has_shape(nc: &Nc) -> bool {
     [Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius].iter().any(|role| nc.word(*role).is_some())
 }
 
 /// True for a block that moves along an arc.
-fn is_arc(nc: &Nc, state: &Modal) -> bool {
+pub(super) fn is_arc(nc: &Nc, state: &Modal) -> bool {
     let arc = matches!(state.op(Group::Motion), Some(Op::ArcCw | Op::ArcCcw));
     let drills = state.op(Group::Cycle).is_some_and(Op::is_cycle);
     arc && has_shape(nc) && !drills && !nc.ops().any(Op::takes_axes)
@@ -228,7 +236,15 @@ impl Maker<'_> {
                     let radius = radius.clone();
                     Ok(self.by_variable(stmt, nc, radius))
                 }
-                Some(radius) if radius >= 0.0 => Ok(vec![stmt.clone()]),
+                // About half a turn: digits that the end has lost would move the centre far along.
+                Some(radius) if radius >= 0.0 => {
+                    let way = distance.and_then(|_| way());
+                    let half = way.and_then(|way| Arc::by_radius(way, radius, ccw));
+                    match half.filter(|arc| arc.pieces() > 1) {
+                        Some(arc) => Ok(self.pieces(stmt, &arc, &Size::One, (incremental, start))),
+                        None => Ok(vec![stmt.clone()]),
+                    }
+                }
                 Some(radius) => {
                     distance.ok_or(DISTANCE)?;
                     let way = way().ok_or(LONG)?;

@@ -7,9 +7,9 @@ use crate::legalize::assumptions::barred;
 use crate::legalize::cycles::{hole_circles, pockets, rigid_taps, tap_leads, tapping, turn_feeds};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
-    added_angles, bare_arcs, home, increments, inverse_feeds, machine_feeds, machine_moves, polar,
-    polar_mode, rapid_once, reference, rotary_ways, rotations, second_home, shaped, shift, short_arcs,
-    under_increments, unit_agrees, unit_checks, units, word_rounds,
+    added_angles, bare_arcs, home, increments, inverse_feeds, long_arcs, machine_feeds, machine_moves, polar,
+    polar_mode, rapid_once, reference, rotary_turns, rotary_ways, rotations, second_home, shaped, shift,
+    short_arcs, under_increments, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -208,4 +208,10 @@ pub(super) const MOVES: &[Pass] = &[
     .when(|c, context| (c.op(Op::ArcCw) || c.op(Op::ArcCcw)) && short_arcs::concerns(context.target))
     .changes_flow()
     .needs(&["modal-calls", "units", "bare-arcs"]),
+    Pass::rewrites("long-arcs", "longer arcs by their radius are written by their centre", long_arcs::run)
+        .when(|c, context| c.role(Role::ArcRadius) && long_arcs::concerns(context.target))
+        .needs(&["modal-calls", "units", "bare-arcs"]),
+    Pass::rewrites("rotary-turns", "long turns of rotary axes are cut into blocks", rotary_turns::run)
+        .when(rotary_turns::concerns)
+        .needs(&["rotary-ways", "modal-calls"]),
 ];

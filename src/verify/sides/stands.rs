@@ -3,7 +3,7 @@
 //! An operator sees the same: the text, and a machine that stands, whoever presses start. Such a stop shows `ALARM 1 TEXT`.
 
 use crate::canon::Sys;
-use crate::control::trace::EventKind;
+use crate::control::trace::{EventKind, Told};
 use crate::control::{End, Run, Stop};
 use crate::dialect::Control;
 
@@ -19,6 +19,12 @@ pub(super) fn stands(control: &Control, mut run: Run) -> Run {
     {
         event.what = EventKind::Alarm(stop.clone());
         run.end = End::Alarm { at: event.at, stop };
+        // What the stop itself ends is no act of the program: of an alarm nobody asks it.
+        let alarm = run.events.pop();
+        while run.events.last().is_some_and(|event| event.told == Told::Implied) {
+            run.events.pop();
+        }
+        run.events.extend(alarm);
     }
     run
 }

@@ -246,7 +246,8 @@ impl Writer<'_, '_> {
         let clear = self.clearance(modal);
         let back = self.rules.back(modal);
         if modal.op(Group::ReturnPlane).is_none() && back.is_some() {
-            self.review(span, INITIALLY);
+            let found = Diagnostic::new(Code::Conditional, span, INITIALLY).asked_once();
+            self.context.add_once(self.index, INITIALLY, found);
         }
         let found = hole(drill, stands, (modal, back), self.first, (clear, dwells));
         let found = match found {

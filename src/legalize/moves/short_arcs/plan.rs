@@ -107,7 +107,9 @@ impl Plan {
             Ok(pieces) => {
                 let positive = maker.positive;
                 let radius = stmt.kind.nc().and_then(|nc| nc.word(Role::ArcRadius)).map(Expr::constant);
-                self.rests |= radius.is_none_or(|radius| radius.is_some_and(|radius| radius < 0.0));
+                let moves = pieces.iter().filter(|stmt| stmt.kind.nc().is_some_and(super::has_shape)).count();
+                self.rests |=
+                    moves > 1 || radius.is_none_or(|radius| radius.is_some_and(|radius| radius < 0.0));
                 self.positive.extend(positive.then_some(span));
                 self.changes = true;
                 return Made::Pieces(pieces);

@@ -42,7 +42,7 @@ impl Arc {
         Self { way, centre, sweep }
     }
 
-    /// The longer arc of a radius; none if there is none.
+    /// The arc of a radius, the longer one of a radius below 0; none if there is none.
     pub fn by_radius(way: [f64; 2], radius: f64, ccw: bool) -> Option<Self> {
         let chord = way[0].hypot(way[1]);
         let rest = radius * radius - chord * chord / 4.0;
@@ -50,8 +50,9 @@ impl Arc {
             return None;
         }
         let height = rest.max(0.0).sqrt();
-        // The centre lies to the right of the chord of the longer arc that turns to the left.
-        let side = if ccw { -1.0 } else { 1.0 };
+        // The centre lies to the right of the chord of the longer arc that turns to the left, and of the shorter one that turns
+        // to the right.
+        let side = if ccw == (radius < 0.0) { -1.0 } else { 1.0 };
         let centre =
             [way[0] / 2.0 - side * height * way[1] / chord, way[1] / 2.0 + side * height * way[0] / chord];
         Some(Self::about(way, centre, ccw))
@@ -59,6 +60,11 @@ impl Arc {
 
     pub fn radius(&self) -> f64 {
         self.centre[0].hypot(self.centre[1])
+    }
+
+    /// Where the centre is.
+    pub fn centre(&self) -> [f64; 2] {
+        self.centre
     }
 
     /// How far the end lies from the arc.
