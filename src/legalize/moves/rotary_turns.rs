@@ -2,7 +2,8 @@
 //!
 //! Law: an axis that turns in increments by more degrees than a block of the target takes turns by as many equal parts as it needs,
 //! in a row. Side conditions: the words are numbers; the axis turns alone, or beside others in a straight feed, whose ways are cut
-//! into the same parts; no block is one of a cycle, an arc, an inverse-time feed or a repeat. Anything else is refused.
+//! into the same parts; no block is one of a cycle, an arc, an inverse-time feed or a repeat, or has an M code, which would act
+//! between the parts. Anything else is refused.
 //! Counter-example: `G91 G0 A1500. X20.`, where no source says that a rapid move is straight.
 
 use crate::canon::{Group, Op, Role};
@@ -74,7 +75,8 @@ fn parts(stmt: &Stmt, state: &Modal, count: f64) -> Option<Vec<Stmt>> {
         .collect::<Option<_>>()?;
     let motion = state.op(Group::Motion);
     let straight = motion == Some(Op::Linear) || motion == Some(Op::Rapid) && axes.len() == 1;
-    let plain = state.op(Group::Distance) == Some(Op::Incremental)
+    let plain = nc.ops().all(|op| matches!(op.group(), Group::Motion | Group::Distance | Group::FeedMode))
+        && state.op(Group::Distance) == Some(Op::Incremental)
         && state.op(Group::Cycle).is_none_or(|op| op == Op::CycleOff)
         && state.op(Group::FeedMode) != Some(Op::FeedInverse)
         && nc.word(Role::Repeat).is_none()
