@@ -29,9 +29,16 @@ pub struct StartMode {
 
 impl StartMode {
     /// The groups of which a machine may say what is in force. Cycles, lengths and compensation are cancelled when a program
-    /// begins.
-    pub const GROUPS: [Group; 6] =
-        [Group::Units, Group::Distance, Group::Plane, Group::FeedMode, Group::Motion, Group::WorkOffset];
+    /// begins. Where holes end is a lathe's to say.
+    pub const GROUPS: [Group; 7] = [
+        Group::Units,
+        Group::Distance,
+        Group::Plane,
+        Group::FeedMode,
+        Group::Motion,
+        Group::WorkOffset,
+        Group::ReturnPlane,
+    ];
 
     fn of(row: &CodeMeaning) -> Self {
         Self { op: row.op, fixed: row.fixed.clone() }

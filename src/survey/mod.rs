@@ -100,8 +100,8 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let places = Places::new(inputs);
     let shape = Shape::of(inputs, &places, &library);
     let mut start = start::asked(&places, source, &library.module);
-    let start_of_target =
-        target.map_or_else(Vec::new, |target| start::asked_of_target(&places, target, &library.module));
+    let start_of_target = target
+        .map_or_else(Vec::new, |target| start::asked_of_target(&places, (source, target), &library.module));
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),

@@ -3,7 +3,7 @@
 use super::filled::{ASKS, TELLS, plain};
 use super::shape::{NAMED, Places};
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{CODE_SYSTEM, Control, StartMode};
+use crate::dialect::{CODE_SYSTEM, Control, Machine, StartMode};
 use crate::ir::Module;
 use crate::legalize::{rests_on, rests_unwritten};
 use crate::library::{Input, by_other_systems, understood};
@@ -120,10 +120,17 @@ pub(super) fn asked(places: &Places<'_>, source: &Control, module: &Module) -> V
 }
 
 /// The modes that the profile of the target does not say, of programs at whose heads no code can be written.
-pub(super) fn asked_of_target(places: &Places<'_>, target: &Control, module: &Module) -> Vec<AskedStart> {
+pub(super) fn asked_of_target(
+    places: &Places<'_>,
+    (source, target): (&Control, &Control),
+    module: &Module,
+) -> Vec<AskedStart> {
     let mut rests = rests_unwritten(module);
-    // The unit is told where `units` is.
-    rests.iter_mut().for_each(|rests| _ = rests.remove(&Group::Units));
+    // The unit is told where `units` is, and where holes end by each cycle, if the source has no codes for it.
+    let told = |group: &Group| {
+        *group == Group::Units || *group == Group::ReturnPlane && codes(source, *group).is_empty()
+    };
+    rests.iter_mut().for_each(|rests| rests.retain(|group| !told(group)));
     open(places, target, module, &rests)
 }
 
@@ -165,6 +172,7 @@ fn words(group: Group) -> &'static str {
         Group::FeedMode => "feed a minute or a turn",
         Group::Motion => "rapid or feed",
         Group::WorkOffset => "the work offset",
+        Group::ReturnPlane => "where holes end: at the level where the cycle began, or at the retract plane",
         _ => group.meaning(),
     }
 }
@@ -178,6 +186,8 @@ fn codes(control: &Control, group: Group) -> Vec<String> {
         Group::FeedMode => &[Op::FeedPerMinute, Op::FeedPerTurn],
         Group::Motion => &[Op::Rapid, Op::Linear],
         Group::WorkOffset => return work_offsets(control),
+        // Every mill begins in the first.
+        Group::ReturnPlane if control.machine() == Machine::Lathe => &[Op::ReturnInitial, Op::ReturnR],
         _ => &[],
     };
     ops.iter().filter_map(|op| Some(control.code_for(*op, &BTreeMap::new())?.code.clone())).collect()

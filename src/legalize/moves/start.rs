@@ -172,8 +172,19 @@ fn is_entered_again(program: &Program, may_come_back: bool) -> bool {
         })
 }
 
-/// The groups that a program names before it uses any; none if it comes to no use.
+/// The groups that a program names before it uses any; none if it comes to no use. Where holes end counts at the first hole.
 fn named_first(program: &Program) -> Option<BTreeSet<Group>> {
+    let mut named = named_before(program, uses)?;
+    let drills = |kind: &StmtKind| kind.nc().is_some_and(|nc| nc.ops().any(Op::is_hole));
+    match named_before(program, drills) {
+        Some(before) if !before.contains(&Group::ReturnPlane) => _ = named.remove(&Group::ReturnPlane),
+        _ => _ = named.insert(Group::ReturnPlane),
+    }
+    Some(named)
+}
+
+/// The groups that a program names on its straight way to such a statement; none if it comes to none.
+fn named_before(program: &Program, comes_to: impl Fn(&StmtKind) -> bool) -> Option<BTreeSet<Group>> {
     let mut named = BTreeSet::new();
     let (mut at, mut seen) = (BlockId(0), BTreeSet::new());
     while seen.insert(at) {
@@ -184,7 +195,7 @@ fn named_first(program: &Program) -> Option<BTreeSet<Group>> {
                 let sure = stmt.site.skip.is_none();
                 named.extend(nc.ops().filter(|op| sure && op.group() != Group::OneShot).map(Op::group));
             }
-            if uses(&stmt.kind) {
+            if comes_to(&stmt.kind) {
                 return Some(named);
             }
         }
