@@ -325,6 +325,11 @@ impl Control {
         self.dialect.settings.iter().find(|row| row.name == name)
     }
 
+    /// True where the control has a setting that no profile states, and no table gives.
+    pub fn leaves_open(&self, name: &str) -> bool {
+        self.setting_row(name).is_some() && self.setting(name).is_none()
+    }
+
     /// True where an option is there: the profile lists it. Where the profile
     /// lists no options, nobody knows, and the answer is none.
     pub fn has_option(&self, option: &str) -> Option<bool> {

@@ -73,7 +73,7 @@ pub use reader::{faults_as_text, faults_of_files};
 pub use registry::Entry;
 pub use row::Row;
 pub use rows::*;
-pub use second_home::SECOND_HOME;
+pub use second_home::{HOLE_CLAMP, SECOND_HOME, STEP_LETTERS};
 pub use site::{SiteCode, Without};
 pub use spelling::{Beside, CodeHead, measures};
 pub use standing::Standing;

@@ -105,6 +105,33 @@ fn two_profiles_of_one_control_get_their_own_questions() {
     }
 }
 
+/// Where holes end hangs on G98 and G99 in G code systems B and C, and a place beside an increment on the letters of the target.
+#[test]
+fn a_survey_asks_where_holes_end_and_for_the_letters_of_the_target() {
+    let lathe = |system: &str| {
+        format!(
+            "dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"\ndecimal_point = \"calculator\"\n[settings]\ngcode_system = \"{system}\"\n"
+        )
+    };
+    let holes = "O1\nG90 G95 G54\nT0101\nG0 X0. Z5.\nG83 Z-20. R-3. F.1\nG80\nM30\n";
+    let steps = "O2\nT0101\nG0 X50. Z#500\nG1 X60. W-5. F.2\nM30\n";
+    let shop = Shop::with(&[
+        ("b/a.nc", holes),
+        ("a/b.nc", steps),
+        ("b.toml", &lathe("B")),
+        ("a.toml", &lathe("A")),
+        ("to.toml", &lathe("B")),
+    ]);
+    let run = shop.run("survey b --from fanuc --to haas --machine b.toml --write b.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = shop.read("b.toml");
+    assert!(text.lines().any(|line| line.starts_with("#? codes = ") && line.contains("G98|G99")), "{text}");
+    let run = shop.run("survey a --from fanuc --to fanuc --machine a.toml --machine to.toml --write a.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = shop.read("to.toml");
+    assert!(text.contains("#? step_letters = \"yes\" or \"no\""), "{text}");
+}
+
 /// A damaged library may have any number of unknown codes and missing programs, and names that are markup elsewhere.
 #[test]
 fn a_damaged_library_is_told_of_in_time() {

@@ -1,5 +1,6 @@
 //! Tool change, spindle and coolant: what a block does beside moving, with the start of its move or after it.
 
+use super::lathe::holes::clamp_of;
 use super::{Command, Machine, tooling};
 use crate::canon::{Act, Auxiliary, Op, Role, Running};
 use crate::control::trace::{Event, EventKind, Spindle, Told, Trace};
@@ -119,7 +120,9 @@ fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let mut acts = command.words.iter().filter(|(role, _)| *role == Role::Act);
     for &op in &command.ops {
         if op == Op::Act {
-            if let Some(act) = acts.next().and_then(|(_, number)| Act::of(*number)) {
+            if let Some(act) = acts.next().and_then(|(_, number)| Act::of(*number))
+                && clamp_of(machine, command).is_none()
+            {
                 builders(machine, command, act, trace);
             }
             continue;
@@ -137,7 +140,7 @@ fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
 }
 
 /// A builder's code that the profile names: the variables that it sets have what the machine puts there.
-fn builders(machine: &mut Machine, command: &Command, act: Act, trace: &mut Trace) {
+pub(super) fn builders(machine: &mut Machine, command: &Command, act: Act, trace: &mut Trace) {
     let words = command.words.iter().filter_map(|(role, value)| Some((act.word_name(*role)?, *value)));
     trace.push(EventKind::Act { name: act.name(), words: words.collect() });
     machine.answers(act);

@@ -87,6 +87,11 @@ pub struct Rules {
     pub pass_alone: Fact<bool>,
     /// The depth of a roughing pass does nothing beside the finishing of a contour.
     pub finish_depth: Fact<()>,
+    /// An allowance beside the finishing of a contour does nothing.
+    pub finish_allowance: Fact<bool>,
+    /// What clamps the C axis in a drilling block, and what lets it go when the tool is back at the plane.
+    pub hole_clamp: [Option<Act>; 2],
+    pub hole_clamp_acts: Fact<()>,
     /// A G code for its own block, other than a wait, takes away what the pass in force was told.
     pub pass_cleared: Fact<bool>,
     pub cycle_block_runs: Fact<bool>,
@@ -240,6 +245,14 @@ impl Rules {
             ),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
+            finish_allowance: fact(
+                control,
+                Question::FinishAllowance,
+                |value| (value == "ignored").then_some(true),
+                false,
+            ),
+            hole_clamp: control.hole_clamp(),
+            hole_clamp_acts: fact(control, Question::HoleClamp, only("plane"), ()),
             pass_cleared: fact(control, Question::PassData, word("cleared", "kept"), false),
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
                 .or_silent(control, Question::CycleBlockRuns),

@@ -12,6 +12,7 @@ pub mod cycle_words;
 mod drawn_lines;
 pub mod faces;
 mod groove_passes;
+pub mod held_holes;
 pub mod hole_codes;
 pub mod hole_returns;
 pub mod holes;

@@ -11,11 +11,11 @@ use super::straight::entered_straight;
 use super::zeros::{adds, sets_zero};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
+use crate::dialect::{Control, Question, STEP_LETTERS};
 use crate::ir::analysis::calls_of;
 use crate::ir::analysis::over_calls::called;
 use crate::ir::{
-    BinOp, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind,
+    BinOp, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind,
 };
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
@@ -44,7 +44,7 @@ fn moves_any(features: &Features) -> bool {
 }
 
 /// True where the target has a mode for increments, and the source none; a program without increments must say so there too. A target
-/// that has letters as well gets none of them.
+/// that has letters as well gets them only where a mode for the whole block cannot say it.
 pub fn letters_to_mode(features: &Features, context: &Context<'_>) -> bool {
     let lost = loses_letters(features, context);
     moves_any(features) && has_mode(context.target) && (!has_mode(context.source) || lost)
@@ -63,6 +63,7 @@ fn has_mode(control: &Control) -> bool {
 pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
     let mut found = contours_elsewhere(module, &facts);
+    let ends_in_mode = has_mode(context.target);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut modal = facts.at(index, BlockId(at as u32));
@@ -83,6 +84,10 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
                 nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
             }
             block.stmts.retain_mut(is_left);
+            // What it leaves in force is said again there.
+            if ends_in_mode && matches!(block.term.kind, TermKind::End { .. } | TermKind::Return { .. }) {
+                block.stmts.extend(modal.op(Group::Distance).map(mode_alone));
+            }
         }
     }
     for (index, span, what) in found {
@@ -90,6 +95,12 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
         context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
     true
+}
+
+/// A block that only says how places count.
+fn mode_alone(op: Op) -> Stmt {
+    let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
+    Stmt { kind, site: SourceInfo::default() }
 }
 
 /// True where something of a statement is left: of an emptied one its comments, and a number that may be gone to.
@@ -144,6 +155,7 @@ const HELP: &str =
 /// Writes the mode that each block's words need.
 pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let (mut found, mut changed) = (Vec::new(), Vec::new());
+    let letters = has_letters(context.target);
     let is_modal = |stmt: &Stmt| matches!(stmt.kind, StmtKind::ModalCall(_));
     let mut stmts = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|block| &block.stmts);
     let any_modal = stmts.any(is_modal);
@@ -185,6 +197,15 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 }
                 place.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                if let [NcItem::Op(op @ (Op::Absolute | Op::Incremental))] = nc.items[..] {
+                    if mode.replace(op) == Some(op) {
+                        nc.items.clear();
+                    }
+                    continue;
+                }
+                if nc.ops().any(Op::reads_contour) {
+                    nc.items.retain(|item| !is_no_step(item));
+                }
                 // The reader has refused a place and an increment of one axis.
                 if Role::STEPS
                     .iter()
@@ -219,7 +240,9 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     }
                     continue;
                 }
-                if both_kinds(nc) {
+                // What no mode can say for the whole block the letters say, where the target has them.
+                let stays = letters && (both_kinds(nc) || inside && has_steps(nc));
+                if both_kinds(nc) && !stays {
                     found.push((
                         index,
                         stmt.site.span,
@@ -227,16 +250,18 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     ));
                     continue;
                 }
-                if inside && has_steps(nc) {
+                if inside && has_steps(nc) && !stays {
                     found.push((index, stmt.site.span, (IN_CONTOUR, IN_CONTOUR_HELP)));
                     swap(nc, |(whole, step)| (step, whole));
                     continue;
                 }
-                let needed = if has_steps(nc) { Op::Incremental } else { Op::Absolute };
+                let needed = if has_steps(nc) && !stays { Op::Incremental } else { Op::Absolute };
                 if place.drills() && !nc.ops().any(Op::is_hole) && mode != Some(needed) {
                     changed.push((index, stmt.site.span));
                 }
-                swap(nc, |(whole, step)| (step, whole));
+                if !stays {
+                    swap(nc, |(whole, step)| (step, whole));
+                }
                 let written = mode != Some(needed);
                 if written {
                     nc.items.insert(0, NcItem::Op(needed));
@@ -248,24 +273,38 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 }
             }
             for (at, site) in ahead.into_iter().rev() {
-                let absolute = StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Absolute)] });
-                block.stmts.insert(at, Stmt { kind: absolute, site });
+                block.stmts.insert(at, Stmt { site, ..mode_alone(Op::Absolute) });
             }
+            block.stmts.retain_mut(is_left);
         }
     }
     for (index, span) in changed {
         context.rests_on_target(index, span, Question::CyclePlanesFrozen);
     }
+    // A target that is not said to have the letters may have them.
+    let open = context.target.leaves_open(STEP_LETTERS);
     for (index, span, (what, help)) in found {
-        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+        let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+        let finding = match open {
+            true => finding.with_help(format!("{help}{LETTERS_HELP}")).lacking_there(STEP_LETTERS),
+            false => finding.with_help(help),
+        };
+        context.add(index, finding);
     }
     true
 }
 
+const LETTERS_HELP: &str = "; or, if the target takes U, W and H as increments in its own system too, write step_letters = \"yes\" under \
+                            [settings] in its profile";
 const BOTH: &str = "a place and an increment in one block, and where the tool stands is not known here: the target has one mode for both axes";
 const IN_CONTOUR: &str = "increments in a contour become places for the target, and where the cycle that reads it begins is not known as numbers";
 const IN_CONTOUR_HELP: &str = "write G0 with X and Z as numbers right before each cycle that reads this contour, the same for all of them; or write the \
                                contour as places";
+
+/// True of an increment of 0.
+fn is_no_step(item: &NcItem) -> bool {
+    matches!(item, NcItem::Word(role, by) if role.is_step() && by.constant() == Some(0.0))
+}
 
 /// Comes to a statement: a contour begins where the cycles begin that read it.
 fn enter(place: &mut Place, stmt: &Stmt, start: Option<[Option<f64>; 2]>, read: bool) {

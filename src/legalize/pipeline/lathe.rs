@@ -5,9 +5,9 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    bare_starts, contour_ends, contour_types, contours, corners, counts, cycle_words, faces, hole_codes,
-    hole_returns, holes, inch_leads, interpolations, lone_passes, modes, roughing, run_outs, steps,
-    tap_feeds, thread_ways, threads, written_corners, x_counts, zeros,
+    bare_starts, contour_ends, contour_types, contours, corners, counts, cycle_words, faces, held_holes,
+    hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes, modes, roughing, run_outs,
+    steps, tap_feeds, thread_ways, threads, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -15,6 +15,13 @@ use crate::legalize::moves::rapid_in_force;
 pub(super) fn is_mill(context: &Context<'_>) -> bool {
     context.target.machine() == Machine::Mill
 }
+
+pub(super) const HELD_HOLES: Pass = Pass::edits(
+    "held-holes",
+    "holes that a code of their block clamps the C axis for are told step by step",
+    held_holes::run,
+)
+.when(held_holes::concerns);
 
 pub(super) const HOLE_CODES: Pass = Pass::reports(
     "hole-codes",

@@ -1,7 +1,7 @@
 //! The passes that look at what the programs rest on at the source, in the order they run in.
 
 use super::Pass;
-use super::lathe::{HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
+use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::LATER_LENGTHS;
 use crate::legalize::assumptions::{changes, facts, runtime, shop};
 use crate::legalize::cycles::{
@@ -21,6 +21,7 @@ pub(super) const SOURCE: &[Pass] = &[
     .when(|c, _| c.has(Feature::Computed)),
     Pass::edits("other-kind", "refuses programs of the other kind of machine", other_kind::run)
         .when(other_kind::concerns),
+    HELD_HOLES,
     HOLE_CODES,
     INTERPOLATIONS,
     LONE_PASSES,

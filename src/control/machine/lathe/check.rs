@@ -34,8 +34,14 @@ pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<
     if machine.rules.turning.inch_set.is_some_and(other) {
         return Err(Stop::unnamed("a unit that the control is not set to"));
     }
-    if command.has(Op::Finish) && command.words.iter().any(|(role, value)| beside_finish(*role, *value)) {
+    let ignored =
+        |role: Role| machine.rules.finish_allowance.peek() && matches!(role, Role::StepX | Role::StepZ);
+    let mut beside = command.words.iter().filter(|(role, value)| beside_finish(*role, *value));
+    if command.has(Op::Finish) && beside.clone().any(|(role, _)| !ignored(*role)) {
         return Err(Stop::unnamed("an axis word beside the finishing of a contour"));
+    }
+    if command.has(Op::Finish) && beside.next().is_some() {
+        machine.rules.finish_allowance.ask(trace);
     }
     if command.has(Op::Finish) && command.word(Role::CutDepth).is_some() {
         machine.rules.finish_depth.ask(trace);

@@ -1,7 +1,8 @@
 //! Drilling cycles of a lathe, along Z or along X (Q5 to Q9).
 
 use super::sense;
-use crate::canon::{Op, Role};
+use crate::canon::{Act, Op, Role};
+use crate::control::machine::auxiliary::builders;
 use crate::control::machine::cycle::{Cycle, across};
 use crate::control::machine::{Command, Machine, expand};
 use crate::control::outcome::Stop;
@@ -33,6 +34,10 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
     machine.round_cycle(command, along, begins.is_some());
     machine.round_in(&across(command, along), trace);
     trace.doubt("machine:lathe.hole.moves");
+    let clamp = clamp_of(machine, command);
+    if clamp.is_some() {
+        machine.rules.hole_clamp_acts.ask(trace);
+    }
     for turn in 0..command.number(Role::Repeat).unwrap_or(1) {
         if turn > 0 {
             machine.round_in(&across(command, along), trace);
@@ -40,12 +45,25 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
         let mut to = machine.target(&across(command, along));
         to[along] = machine.position[along];
         machine.rapid_to(to, trace);
-        hole(machine, along, trace)?;
+        if let Some([clamps, _]) = clamp {
+            builders(machine, command, clamps, trace);
+        }
+        hole(machine, (along, clamp.map(|[_, frees]| (command, frees))), trace)?;
         if trace.is_full() {
             break;
         }
     }
     Ok(())
+}
+
+/// What clamps the C axis for the hole of a block, and what lets it go, if the block has that code and drills (Q8).
+pub(in crate::control::machine) fn clamp_of(machine: &Machine, command: &Command) -> Option<[Act; 2]> {
+    let [Some(clamps), Some(frees)] = machine.rules.hole_clamp else { return None };
+    let drills = command.ops.iter().copied().chain(machine.cycle()).any(Op::is_hole);
+    let mut acts = command.words.iter().filter(|(role, _)| *role == Role::Act);
+    let own = acts.next().and_then(|(_, number)| Act::of(*number)) == Some(clamps);
+    let places = command.axes().next().is_some() || command.ops.iter().any(|op| op.is_hole());
+    (drills && places && own && acts.next().is_none()).then_some([clamps, frees])
 }
 
 /// What is refused (Q8).
@@ -55,9 +73,10 @@ fn check(machine: &Machine, command: &Command, op: Op) -> Result<(), Stop> {
         return refused("a drilling cycle that the emulated lathe does not run");
     }
     let beside = |op: &Op| {
-        op.auxiliary().is_some()
-            || matches!(op, Op::Stop | Op::OptionalStop | Op::Builder | Op::MachineSpecific | Op::RigidTaps)
-            || *op == Op::Act
+        let clamps = *op == Op::Act && clamp_of(machine, command).is_some();
+        let own =
+            matches!(op, Op::Stop | Op::OptionalStop | Op::Builder | Op::MachineSpecific | Op::RigidTaps);
+        !clamps && (own || op.auxiliary().is_some())
     };
     if command.ops.iter().any(beside) || command.word(Role::Turret).is_some() {
         return refused("an M code or a tool word in a drilling block");
@@ -110,8 +129,12 @@ fn read(machine: &mut Machine, command: &Command, along: usize) {
     cycle.without_dwell = command.without_dwell;
 }
 
-/// Drills at the present place.
-fn hole(machine: &mut Machine, along: usize, trace: &mut Trace) -> Result<(), Stop> {
+/// Drills at the present place; a clamp is let go at the plane.
+fn hole(
+    machine: &mut Machine,
+    (along, frees): (usize, Option<(&Command, Act)>),
+    trace: &mut Trace,
+) -> Result<(), Stop> {
     let Some(mut cycle) = machine.cycle.clone() else { return Ok(()) };
     let mut planes = cycle.planes(None).ok_or_else(|| Stop::unnamed("a drilling cycle without its depth"))?;
     if cycle.without_dwell {
@@ -132,7 +155,19 @@ fn hole(machine: &mut Machine, along: usize, trace: &mut Trace) -> Result<(), St
         // It began below the plane, and ends at it (Q9).
         planes.initial = planes.r;
     }
+    let initial = planes.initial;
+    if frees.is_some() {
+        planes.initial = planes.r;
+    }
     expand::hole(machine, &cycle, (planes, along), trace);
+    if let Some((command, act)) = frees {
+        builders(machine, command, act, trace);
+        if !machine.return_to_r {
+            let mut to = machine.position;
+            to[along] += initial - planes.initial;
+            machine.rapid_to(to, trace);
+        }
+    }
     if live {
         // The spindle that turns the part is where it was.
         machine.spindle = main;

@@ -2,14 +2,11 @@
 
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Axis, Machine, Question};
+use crate::dialect::{Axis, Machine, Question, STEP_LETTERS};
 use crate::ir::{BinOp, Expr, Nc, NcItem, SourceInfo};
 use crate::lower::macro_b::build::Lowering;
 use crate::syntax::{self, ExprKind};
 use crate::text::Span;
-
-/// The setting that says whether U, V, W and H are increments in G code systems that have modes for them.
-const STEP_LETTERS: &str = "step_letters";
 
 /// The letters of [`Role::STEPS`].
 const LETTERS: [&str; 4] = ["X and U", "Y and V", "Z and W", "C and H"];
@@ -29,8 +26,20 @@ impl Lowering<'_> {
         if nc.has(Op::MachineOnce) && Role::STEPS.iter().any(|(_, step)| has(*step)) {
             self.findings.not_understood(span, "an increment beside G53: no source says what it counts from");
         }
-        if nc.has(Op::Finish) && nc.items.iter().any(is_place) {
-            let what = "an axis or an allowance beside the finishing of a contour: no source says what the control does with it";
+        let adds = |item: &NcItem| matches!(item, NcItem::Word(Role::StepX | Role::StepZ, _));
+        if nc.has(Op::Finish)
+            && nc.items.iter().any(|item| is_place(item) && adds(item))
+            && !self.ignores_allowances()
+        {
+            let what = "an allowance (U, W) beside the finishing of a contour: no source says what the control does with it";
+            let help = "leave it out; or, if the machine is seen to take no notice of it, say so in its profile: \"finish.allowance\" = \"ignored\" under \
+                        [behaviours]";
+            self.findings.add(Diagnostic::new(Code::NotUnderstood, span, what).with_help(help));
+            self.unknown_behaviour(Question::FinishAllowance, span);
+        }
+        if nc.has(Op::Finish) && nc.items.iter().any(|item| is_place(item) && !adds(item)) {
+            let what =
+                "an axis beside the finishing of a contour: no source says what the control does with it";
             let found = Diagnostic::new(Code::NotUnderstood, span, what);
             self.findings.add(found.with_help("leave it out, and write a move into a block of its own"));
         }
@@ -54,7 +63,12 @@ impl Lowering<'_> {
         if self.control.machine() != Machine::Lathe || !nc.has(Op::Finish) {
             return;
         }
-        nc.items.retain(|item| !is_no_allowance(item));
+        let ignores = self.ignores_allowances();
+        let added = |item: &NcItem| matches!(item, NcItem::Word(Role::StepX | Role::StepZ, _));
+        if ignores && nc.items.iter().any(|item| added(item) && !is_no_allowance(item)) {
+            self.findings.behaviour(Question::FinishAllowance, span);
+        }
+        nc.items.retain(|item| !is_no_allowance(item) && !(ignores && added(item)));
         if nc.word(Role::CutDepth).is_none() {
             return;
         }
@@ -64,20 +78,24 @@ impl Lowering<'_> {
         nc.items.retain(|item| !matches!(item, NcItem::Word(Role::CutDepth, _)));
     }
 
+    fn ignores_allowances(&self) -> bool {
+        self.control.behaviour(Question::FinishAllowance).is_some_and(|row| row.value == "ignored")
+    }
+
     /// A letter that is an increment in G code system A, and in another one only where the machine's profile says so.
     pub fn no_step(&mut self, span: Span) {
         let as_places = "write G91 and X, Y, Z, C in a block, and G90 after it";
-        let told = if self.control.profile().settings.contains_key(STEP_LETTERS) {
+        let told = if !self.control.leaves_open(STEP_LETTERS) {
             let message = "U, V, W and H are no increments on this machine: its profile says so";
             Diagnostic::new(Code::NotUnderstood, span, message).with_help(as_places)
         } else {
             let message = "U, V, W and H are increments of X, Y, Z and C in G code system A; whether this machine takes them so in its own \
                            system too no source says";
             let help = format!(
-                "if it does, write {STEP_LETTERS} = \"yes\" under [settings] in the machine's profile; if not, {as_places}"
+                "if it does, write step_letters = \"yes\" under [settings] in the machine's profile; if not, {as_places}"
             );
             let told = Diagnostic::new(Code::NotUnderstood, span, message).with_help(help);
-            told.lacking(format!("setting.{STEP_LETTERS}"))
+            told.lacking(STEP_LETTERS)
         };
         self.findings.add(told);
     }

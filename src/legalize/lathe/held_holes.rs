@@ -1,0 +1,211 @@
+//! Holes of a lathe for which a code of their block clamps the C axis, on a target whose cycles do nothing of the kind.
+//!
+//! Law: the tool goes to the place, the axis is clamped, the tool goes to the retract plane, drills and comes back to it, the axis is let go,
+//! and the tool goes back to where the cycle began. Each of these is a block of its own, and what the cycle was told before is told again
+//! with each hole. Side conditions: the profile of the source names both codes (parameter 5110); rapid is in force, the words that are told
+//! again are numbers and count as they did, nothing else leads into the cycle, holes end at the level where it began, and none has
+//! repeats or a block skip. Counter-example: `C90. M89` after a label that is jumped to, where the depth is not known.
+
+use super::holes::drills;
+use crate::canon::{Act, Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
+use std::collections::BTreeMap;
+
+/// True where holes may be held on the source, and the target is another control.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let known = matches!(context.source.hole_clamp(), [Some(_), Some(_)]);
+    known
+        && context.source.name() != context.target.name()
+        && features.op(Op::Act)
+        && features.any_op(Op::is_hole)
+}
+
+/// Writes them out.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let [Some(clamps), Some(frees)] = context.source.hole_clamp() else { return false };
+    let chooses = context.source.code_for(Op::ReturnInitial, &BTreeMap::new()).is_some();
+    let facts = context.modal_facts(module);
+    let (mut written, mut lost, mut open) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (id, block) in program.ids().zip(&mut program.blocks) {
+            let mut state = facts.at(index, id);
+            let mut cycle = Cycle::default();
+            let mut out = Stmts::with_capacity(block.stmts.len());
+            for stmt in std::mem::take(&mut block.stmts) {
+                let before = state.clone();
+                state.step(&stmt);
+                let hole = stmt.kind.nc().and_then(|nc| Some((nc, drills(nc, &state)?)));
+                let Some((nc, op)) = hole else {
+                    if state.op(Group::Cycle) == Some(Op::CycleOff) {
+                        cycle = Cycle::default();
+                    }
+                    out.push(stmt);
+                    continue;
+                };
+                let held = is_held(nc, clamps);
+                cycle.take(nc, op, &state);
+                if !held && !cycle.is_ended {
+                    if cycle.op.is_none() {
+                        open.push((index, stmt.site.span));
+                    }
+                    out.push(stmt);
+                    continue;
+                }
+                let acts = held.then_some([clamps, frees]);
+                // A control without codes for it always goes back to where the cycle began.
+                let goes_back = !chooses || state.op(Group::ReturnPlane) == Some(Op::ReturnInitial);
+                match cycle
+                    .written(nc, (acts, goes_back), (&before, &state))
+                    .filter(|_| stmt.site.skip.is_none())
+                {
+                    Some(blocks) => {
+                        cycle.is_ended = true;
+                        written.push((index, stmt.site.span));
+                        let aside = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
+                        let sites = std::iter::once(stmt.site).chain(std::iter::repeat(aside));
+                        out.extend(
+                            blocks
+                                .into_iter()
+                                .zip(sites)
+                                .map(|(nc, site)| Stmt { kind: StmtKind::Nc(nc), site }),
+                        );
+                    }
+                    None => {
+                        // One that is held is refused where it stands.
+                        lost.extend((!held).then_some((index, stmt.site.span)));
+                        out.push(stmt);
+                    }
+                }
+            }
+            block.stmts = out;
+        }
+    }
+    // The cycle may have ended on the target.
+    lost.extend(open.into_iter().filter(|_| !written.is_empty()));
+    for (index, span) in lost {
+        let found = Diagnostic::new(Code::NoEquivalent, span, LOST).with_help(LOST_HELP);
+        context.add_once(index, LOST, found);
+    }
+    for (index, span) in &written {
+        context.rests_on_source(*index, *span, Question::HoleClamp);
+    }
+    !written.is_empty()
+}
+
+const LOST: &str = "a hole that goes on with a cycle whose holes are clamped: its plane or depth is computed, or not known here, or it has repeats or a block \
+                    skip, and on the target the cycle has ended";
+const LOST_HELP: &str = "write the code of the cycle with all its words into the block";
+
+/// True of a block whose one code of a builder is the clamp.
+fn is_held(nc: &Nc, clamps: Act) -> bool {
+    let mut acts = nc.items.iter().filter_map(|item| match item {
+        NcItem::Word(Role::Act, number) => Some(number.constant()),
+        _ => None,
+    });
+    acts.next() == Some(Some(clamps.number())) && acts.next().is_none()
+}
+
+/// What is known of the cycle in force.
+#[derive(Clone, Debug, Default)]
+struct Cycle {
+    /// Its code, where it began in this block of the program.
+    op: Option<Op>,
+    /// The depth, the retract plane and the wait, as they were told last.
+    words: Vec<(Role, Expr)>,
+    /// Whether places were places or increments when it was told the depth.
+    mode: Option<Op>,
+    /// True where the target has none in force.
+    is_ended: bool,
+}
+
+/// Words that a hole takes from the block of an earlier one.
+const LASTING: [Role; 4] = [Role::CycleRStep, Role::CycleDwell, Role::Z, Role::StepZ];
+const LASTING_SIDE: [Role; 4] = [Role::CycleRStep, Role::CycleDwell, Role::X, Role::StepX];
+
+impl Cycle {
+    fn lasting(op: Op) -> [Role; 4] {
+        if op.is_side_hole() { LASTING_SIDE } else { LASTING }
+    }
+
+    /// Takes what a block tells.
+    fn take(&mut self, nc: &Nc, op: Op, state: &Modal) {
+        if nc.ops().any(Op::is_hole) {
+            self.op = Some(op);
+        }
+        let depth = |role: &Role| !matches!(role, Role::CycleRStep | Role::CycleDwell);
+        for item in &nc.items {
+            let NcItem::Word(role, value) = item else { continue };
+            if Self::lasting(op).contains(role) {
+                self.words.retain(|(old, _)| old != role && !(depth(old) && depth(role)));
+                self.words.push((*role, value.clone()));
+                if depth(role) {
+                    self.mode = state.op(Group::Distance);
+                }
+            }
+        }
+    }
+
+    /// The blocks of a hole; none where something of it is not known.
+    fn written(
+        &self,
+        nc: &Nc,
+        (acts, goes_back): (Option<[Act; 2]>, bool),
+        (before, state): (&Modal, &Modal),
+    ) -> Option<Vec<Nc>> {
+        let op = self.op?;
+        let told = |role: Role| self.words.iter().find(|(own, _)| *own == role).map(|(_, value)| value);
+        let plane = told(Role::CycleRStep).map_or(Some(0.0), Expr::constant)?;
+        let numbers = self.words.iter().all(|(_, value)| value.constant().is_some());
+        let rapid = before.op(Group::Motion) == Some(Op::Rapid);
+        // The depth would count otherwise, or the next plane from another level.
+        let alike = self.mode == state.op(Group::Distance) && goes_back;
+        if !numbers || !rapid || !alike || nc.word(Role::Repeat).is_some() {
+            return None;
+        }
+        let aside = |item: &NcItem| match item {
+            NcItem::Word(role, _) => *role == Role::Act || Self::lasting(op).contains(role),
+            NcItem::Op(own) => *own == Op::Act || own.is_hole(),
+            NcItem::Code(..) => false,
+        };
+        let depth = |role: &Role| Self::lasting(op)[2..].contains(role);
+        let is_place = |item: &NcItem| matches!(item, NcItem::Word(role, _) if (role.is_axis() || role.is_step()) && !depth(role));
+        let (places, rest): (Vec<_>, Vec<_>) =
+            nc.items.iter().filter(|item| !aside(item)).cloned().partition(is_place);
+        let lasting = self.words.iter().map(|(role, value)| NcItem::Word(*role, value.clone()));
+        let Some(acts) = acts else {
+            let items = std::iter::once(NcItem::Op(op)).chain(places).chain(lasting).chain(rest);
+            return Some(vec![Nc { items: items.collect() }]);
+        };
+        // The cycle begins at its plane, and so ends there.
+        let at_plane = lasting.map(|item| match item {
+            NcItem::Word(Role::CycleRStep, _) => NcItem::Word(Role::CycleRStep, Expr::Number(0.0)),
+            item => item,
+        });
+        let cycle = std::iter::once(NcItem::Op(op)).chain(at_plane).chain(rest).collect();
+        let act = |act: Act| Nc {
+            items: vec![NcItem::Op(Op::Act), NcItem::Word(Role::Act, Expr::Number(act.number()))],
+        };
+        let way = |by: f64| {
+            let (role, by) = if op.is_side_hole() { (Role::StepX, 2.0 * by) } else { (Role::StepZ, by) };
+            Nc { items: vec![NcItem::Op(Op::Rapid), NcItem::Word(role, Expr::Number(by))] }
+        };
+        let mut blocks = Vec::new();
+        if !places.is_empty() {
+            blocks.push(Nc { items: std::iter::once(NcItem::Op(Op::Rapid)).chain(places).collect() });
+        }
+        blocks.push(act(acts[0]));
+        if plane != 0.0 {
+            blocks.push(way(plane));
+        }
+        blocks.push(Nc { items: cycle });
+        blocks.push(act(acts[1]));
+        if plane != 0.0 {
+            blocks.push(way(-plane));
+        }
+        Some(blocks)
+    }
+}
