@@ -267,7 +267,7 @@ questions! {
     FinishDepth "finish.depth" OneOf(&["ignored", "unknown"]), "what the depth of a roughing pass does beside the finishing of a contour: nothing", if "op:contour.finish";
     FinishAllowance "finish.allowance" OneOf(&["ignored", "unknown"]), "what an allowance (U, W) does beside the finishing of a contour: nothing", if "op:contour.finish";
     HoleClamp "hole.clamp" OneOf(&["plane", "unknown"]), "where the code that clamps the C axis in a drilling block acts: when the place of the hole is reached, and \
-                                                         the code that lets it go when the tool is back at the retract plane", if "op:cycle.face.hole";
+                                                         the code that lets it go when the tool is back at the retract plane", if "said";
     ThreadAngles "thread.angles" OneOf(&["0.29.30.55.60.80", "any", "unknown"]), "the angles between the flanks of a thread that the cycle of many passes takes, in \
                                                                                 whole degrees", if "op:threading";
     ThreadFlanks "thread.flanks" OneOf(&["leading.first", "trailing.first", "unknown"]), "in which order the passes of a thread that is cut on both flanks take them: first the one \

@@ -75,8 +75,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                         );
                     }
                     None => {
-                        // One that is held is refused where it stands.
-                        lost.extend((!held).then_some((index, stmt.site.span)));
+                        lost.push((index, stmt.site.span));
                         out.push(stmt);
                     }
                 }
@@ -96,8 +95,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     !written.is_empty()
 }
 
-const LOST: &str = "a hole that goes on with a cycle whose holes are clamped: its plane or depth is computed, or not known here, or it has repeats or a block \
-                    skip, and on the target the cycle has ended";
+const LOST: &str = "a hole of a cycle whose holes are clamped: its plane or depth is computed, or not known here, or it has repeats or a block \
+                    skip, or ends at its plane, or G1 is in force; the target needs a block for each step of it";
 const LOST_HELP: &str = "write the code of the cycle with all its words into the block";
 
 /// True of a block whose one code of a builder is the clamp.
