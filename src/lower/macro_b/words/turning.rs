@@ -68,7 +68,7 @@ impl Lowering<'_> {
         if ignores && nc.items.iter().any(|item| added(item) && !is_no_allowance(item)) {
             self.findings.behaviour(Question::FinishAllowance, span);
         }
-        nc.items.retain(|item| !is_no_allowance(item) && !(ignores && added(item)));
+        nc.items.retain(|item| !(is_no_allowance(item) || ignores && added(item)));
         if nc.word(Role::CutDepth).is_none() {
             return;
         }
