@@ -286,6 +286,8 @@ pub struct Comment {
 pub enum Fence {
     /// `(text)`.
     Closed,
+    /// The same, inside the brackets of an expression: `[#1 (text)]`. It follows the item that it stands in.
+    Within,
     /// `(text` to the end of the line.
     Open,
     /// `*text` to the end of the line.

@@ -9,7 +9,7 @@ use crate::control::library::Library;
 use crate::control::outcome::Stop;
 use crate::diag::{Code, Severity};
 use crate::dialect::{Control, Machine, Question, Row};
-use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
+use crate::syntax::{self, Fence, Item, ItemKind, OutputPart, Target};
 use crate::text::{Span, decode};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -127,6 +127,12 @@ impl Compiler<'_> {
             self.items(&block.items, &text, &mut gather);
             self.flush(&mut gather);
             self.shared_block(&block.items, &mut gather.facts);
+            let is_within = |item: &Item| matches!(&item.kind, ItemKind::Comment(comment) if comment.fence == Fence::Within);
+            syntax::for_each_item(&block.items, &mut |item| {
+                if is_within(item) {
+                    self.rest_on_statement("comment.in.brackets", &mut gather.facts);
+                }
+            });
         }
         gather.facts.sort();
         gather.facts.dedup();
@@ -139,7 +145,7 @@ impl Compiler<'_> {
     fn comment(&self, items: &[Item]) -> String {
         let statement = items.iter().position(|item| !matches!(item.kind, ItemKind::Comment(_)));
         let mut texts = items.iter().skip(statement.unwrap_or(0)).filter_map(|item| match &item.kind {
-            ItemKind::Comment(comment) => Some(self.text(comment.text)),
+            ItemKind::Comment(comment) if comment.fence != Fence::Within => Some(self.text(comment.text)),
             _ => None,
         });
         texts.next().unwrap_or_default()
@@ -149,7 +155,9 @@ impl Compiler<'_> {
     fn shown(&self, items: &[Item]) -> Option<String> {
         let words = items.iter().rposition(|item| matches!(item.kind, ItemKind::Word(_)))?;
         items.iter().skip(words).find_map(|item| match &item.kind {
-            ItemKind::Comment(comment) if self.control.is(Question::MessageShowsComment) => {
+            ItemKind::Comment(comment)
+                if comment.fence != Fence::Within && self.control.is(Question::MessageShowsComment) =>
+            {
                 Some(self.text(comment.text))
             }
             _ => None,

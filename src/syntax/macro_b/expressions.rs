@@ -87,6 +87,7 @@ impl Builder<'_> {
         let open = self.need(Lex::Open)?;
         self.pass_space();
         let inner = self.expression()?;
+        self.pass_remarks();
         Ok((inner, open.to(self.need(Lex::Close)?)))
     }
 
@@ -109,6 +110,7 @@ impl Builder<'_> {
             arguments.push(self.expression()?);
             form = CallForm::Comma;
         }
+        self.pass_remarks();
         let mut span = word.to(self.need(Lex::Close)?);
         if self.meets(Lex::Slash) {
             self.take();

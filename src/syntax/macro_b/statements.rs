@@ -52,6 +52,20 @@ impl Builder<'_> {
                 _ => return Err(self.misfit()),
             };
             items.push(Item { kind, span: Span::new(start, self.end()) });
+            items.append(&mut self.within);
+        }
+    }
+
+    /// Passes blanks and comments before a closing bracket. The comments follow the item as ones of their own.
+    pub fn pass_remarks(&mut self) {
+        while matches!(self.kind(), Lex::Space | Lex::Comment) {
+            let span = self.here();
+            if self.kind() == Lex::Space {
+                self.take();
+            } else if let ItemKind::Comment(comment) = self.comment() {
+                let kind = ItemKind::Comment(Comment { fence: Fence::Within, ..comment });
+                self.within.push(Item { kind, span });
+            }
         }
     }
 
@@ -103,6 +117,7 @@ impl Builder<'_> {
         let bare = self.take_if(Lex::If).is_none();
         let condition = self.condition()?;
         let mut body = Vec::with_capacity(1);
+        body.append(&mut self.within);
         while matches!(self.kind(), Lex::Space | Lex::Comment) {
             self.gap(&mut body);
         }
@@ -135,6 +150,7 @@ impl Builder<'_> {
             Some(_) => Some(self.condition()?),
             None => None,
         };
+        items.append(&mut self.within);
         while matches!(self.kind(), Lex::Space | Lex::Comment) {
             self.gap(items);
         }

@@ -20,7 +20,8 @@ pub struct Tree {
 /// # Errors
 /// The place where a row of leaves makes no sense, or nests too deep.
 pub fn build(source: &[u8], row: &[Lexeme], rank: fn(BinaryOp) -> u8) -> Result<Tree, SyntaxError> {
-    let mut builder = Builder { source, row, rank, at: 0, errors: Vec::new(), operators: 0 };
+    let mut builder =
+        Builder { source, row, rank, at: 0, errors: Vec::new(), within: Vec::new(), operators: 0 };
     // A number and a statement are the most that usual blocks hold.
     let mut items = Vec::with_capacity(2);
     builder.items(&mut items, 0)?;
@@ -37,6 +38,8 @@ pub struct Builder<'a> {
     pub rank: fn(BinaryOp) -> u8,
     at: usize,
     pub errors: Vec<SyntaxError>,
+    /// Comments inside the brackets of the item that is read.
+    pub within: Vec<Item>,
     /// Operators met so far, which bounds how deep the trees can be.
     pub operators: usize,
 }

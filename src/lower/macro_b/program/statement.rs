@@ -7,7 +7,7 @@ use crate::ir::{Expr, OutputPart, Place, SourceInfo, StmtKind};
 use crate::lower::common::comment_text;
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::expressions::At;
-use crate::syntax::{ExprKind, Item, ItemKind, OutputPart as Part};
+use crate::syntax::{ExprKind, Fence, Item, ItemKind, OutputPart as Part};
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
@@ -124,7 +124,7 @@ impl<'a> Lowering<'a> {
 /// The first comment of the items.
 fn comment(items: &[Item]) -> Option<Span> {
     items.iter().find_map(|item| match &item.kind {
-        ItemKind::Comment(comment) => Some(comment.text),
+        ItemKind::Comment(comment) if comment.fence != Fence::Within => Some(comment.text),
         _ => None,
     })
 }

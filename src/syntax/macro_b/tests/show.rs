@@ -27,6 +27,7 @@ fn item(item: &Item, source: &[u8]) -> String {
             match fence {
                 Fence::Closed => format!("({text})"),
                 Fence::Open => format!("({text}"),
+                Fence::Within => format!("[({text})]"),
                 _ => format!("outside<{text}>"),
             }
         }
