@@ -118,6 +118,7 @@ pub const STATEMENTS: &[&str] = &[
     "call.cycle",
     "call.repeat",
     "call.repeat.digits",
+    "comment.in.brackets",
     "jump.input",
     "return",
     "return.to.sequence",
@@ -326,6 +327,7 @@ fn settings(reader: &mut Reader, tables: &Tables) {
                 }
                 Some(("limit", name)) => tables.limits.iter().any(|limit| limit.row.name == name),
                 Some(("numbers", "bare_length" | "bare_argument" | "bare_feed" | "arithmetic")) => true,
+                Some(("text", "program_max")) => value.parse().is_ok_and(|most: u32| most > 0),
                 Some(("numbers", "feed_parts")) => value.parse().is_ok_and(|parts: f64| parts >= 1.0),
                 _ => false,
             };

@@ -140,6 +140,10 @@ fn change<'d>(dialect: &'d mut Dialect, target: &str, value: &str) -> Option<&'d
             row.max = value.parse().ok();
             Some(&mut row.origin)
         }
+        ("text", "program_max") => {
+            dialect.text.program_max = value.parse().unwrap_or(dialect.text.program_max);
+            None
+        }
         ("numbers", column) => {
             let numbers = &mut dialect.numbers;
             let bare = match value {

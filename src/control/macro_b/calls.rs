@@ -150,10 +150,10 @@ impl<'c> Runner<'c> {
         self.push(frame)
     }
 
-    /// `P68003` is six times O8003, where the control reads it so and no program has that number.
+    /// `P68003` is six times O8003, where the control reads it so and its program numbers have four digits.
     fn repeat_digits(&mut self, number: f64, count: Option<f64>) -> (f64, Option<f64>) {
         let too_long = number > f64::from(self.session.control.text().program_max);
-        if count.is_some() || !too_long || self.called(number).is_some() {
+        if count.is_some() || !too_long {
             return (number, count);
         }
         let Some(row) = self.session.control.statement("call.repeat.digits") else { return (number, count) };

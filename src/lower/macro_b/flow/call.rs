@@ -209,11 +209,12 @@ impl<'a> Lowering<'a> {
     }
 
     /// On controls that have it, `M98 P68003` calls O8003 six times: digits before the last four
-    /// are the count, unless L gives one.
+    /// are the count, unless L gives one. Where program numbers have more digits they are all the number's.
     fn repeat_digits(&mut self, number: f64, parts: &Parts<'a>, span: Span) -> (f64, Option<Expr>) {
         let counted = parts.own.iter().any(|(role, _, _)| matches!(role, Role::CallCount | Role::CallAgain));
         let Some(row) = self.control.statement("call.repeat.digits") else { return (number, None) };
-        if number < 10_000.0 || counted || number.fract() != 0.0 {
+        let is_a_number = number <= f64::from(self.control.text().program_max);
+        if number < 10_000.0 || is_a_number || counted || number.fract() != 0.0 {
             return (number, None);
         }
         self.findings.rest_on(row, span);

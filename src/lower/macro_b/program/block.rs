@@ -6,8 +6,11 @@ use crate::dialect::Question;
 use crate::ir::{Cond, SourceInfo, StmtKind, TermKind};
 use crate::lower::macro_b::build::{Lowering, Motion};
 use crate::lower::macro_b::parts::{Piece, Words, acts, site};
-use crate::syntax::{Block, Item, ItemKind, Label};
+use crate::syntax::{Block, Fence, Item, ItemKind, Label, ProgramName, for_each_item};
+use crate::text::Span;
 use smallvec::SmallVec;
+
+const LONG_NUMBERS: &str = "if its numbers have eight digits, which is an option, write program_digits = \"8\" under [settings] of its profile";
 
 /// What stands on a block, besides words and comments.
 #[derive(Default)]
@@ -86,7 +89,13 @@ impl<'a> Lowering<'a> {
         if is_head {
             // They are the program's.
             site.comments.clear();
+            self.long_number(block);
         }
+        for_each_item(&block.items, &mut |item| {
+            if matches!(&item.kind, ItemKind::Comment(comment) if comment.fence == Fence::Within) {
+                self.rest_on_statement("comment.in.brackets", item.span);
+            }
+        });
         let contents = Contents::of(&block.items);
         if contents.inserted {
             self.findings.not_understood(block.span, "'N+' is not a sequence number here");
@@ -107,6 +116,23 @@ impl<'a> Lowering<'a> {
             self.findings.not_understood(site.span, "the sequence number must stand first in its block");
         }
         if contents.skips { self.skipping(block, first, site) } else { self.items(&block.items, &site) }
+    }
+
+    /// A program number of more digits than this machine's have: its calls are read otherwise where these have as many.
+    fn long_number(&mut self, block: &Block) {
+        let number = |item: &Item| match item.kind {
+            ItemKind::Program(ProgramName::Number(number)) => Some((number, item.span)),
+            _ => None,
+        };
+        let most = self.control.text().program_max;
+        let is_long = |(number, _): &(u32, Span)| *number > most;
+        let splits = self.control.statement("call.repeat.digits").is_some();
+        if let Some((number, span)) = block.items.iter().find_map(number).filter(is_long).filter(|_| splits) {
+            let what =
+                format!("O{number}: program numbers of this machine have four digits, and this one has more");
+            let told = Diagnostic::new(Code::Conditional, span, what).with_help(LONG_NUMBERS);
+            self.findings.add(told.asked_once());
+        }
     }
 
     /// A block with a block skip.
