@@ -2,12 +2,14 @@
 
 use super::kinds::setting;
 use super::observe::Act;
+use super::substitutes::is_idle;
 use crate::control::trace::{Event, EventKind, Told};
 
 /// How many settings stand on each side before an alarm of one of them: it keeps them from doing anything, and the other side
-/// goes on, and may set them otherwise first.
+/// goes on, and may set them otherwise first. A limit on reading ahead may stand among them.
 pub fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
-    let settings = sides.map(|acts| acts.iter().take_while(|act| setting(&act.what).is_some()).count());
+    let passes = |act: &&Act<'_>| setting(&act.what).is_some() || is_idle(&act.what);
+    let settings = sides.map(|acts| acts.iter().take_while(passes).count());
     let alarm = |side: usize| {
         sides[side].get(settings[side]).is_some_and(|act| matches!(*act.what, EventKind::Alarm(_)))
     };

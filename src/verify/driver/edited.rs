@@ -13,7 +13,7 @@ use crate::syntax::{Expr, ExprKind, Item, ItemKind, VarRef};
 use crate::text::Span;
 use crate::verify::certificate::{Edit, Why};
 use crate::verify::explore::{Proposals, inputs, unit};
-use crate::verify::sides::{EditedText, Job, Side, name_of};
+use crate::verify::sides::{EditedText, Job, Side, name_of, of_target};
 use crate::verify::triage::moved;
 use std::collections::BTreeSet;
 
@@ -41,13 +41,18 @@ impl Verifier<'_, '_> {
             return;
         }
         let Job { source, target, names, .. } = self.job;
-        let theirs = constants(target, there, false);
+        // What the source calls by a block number of its own may be a program of its own there.
+        let others = of_target(self.job, self.program).into_iter().filter(|part| *part != there);
+        let parts = std::iter::once(there).chain(others);
+        let theirs: Vec<(ProgramRef, Constant)> = parts
+            .flat_map(|part| constants(target, part, false).into_iter().map(move |twin| (part, twin)))
+            .collect();
         let numbers = inputs(source, self.program, target).numbers;
         let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
         for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
             let named = names.variable(&constant.name, source.control, target.control);
-            let twin = theirs.iter().find(|twin| Some(&twin.name) == named.as_ref());
-            let Some(twin) = twin.filter(|twin| twin.value == constant.value) else { continue };
+            let twin = theirs.iter().find(|(_, twin)| Some(&twin.name) == named.as_ref());
+            let Some(twin) = twin.filter(|(_, twin)| twin.value == constant.value) else { continue };
             for value in values(constant.value, &numbers) {
                 if self.went_every_way() || steps == 0 || for_target == 0 || self.is_out_of_time() {
                     return;
@@ -62,7 +67,7 @@ impl Verifier<'_, '_> {
     fn edit(
         &mut self,
         there: ProgramRef,
-        (ours, theirs): (&Constant, &Constant),
+        (ours, (part, theirs)): (&Constant, &(ProgramRef, Constant)),
         value: f64,
         steps: &mut u64,
     ) {
@@ -89,11 +94,11 @@ impl Verifier<'_, '_> {
         if !new && self.target_coverage.is_complete() {
             return;
         }
-        let Some(other) = EditedText::new(&target.texts(), there, theirs.span, value) else { return };
+        let Some(other) = EditedText::new(&target.texts(), *part, theirs.span, value) else { return };
         let blocks = other.parse(&target.texts());
-        let Some(new_target) = target.edited(there, &other, other.own(&blocks)) else { return };
+        let Some(new_target) = target.edited(*part, &other, other.own(&blocks)) else { return };
         new_target.take_over(target, new_source.stands_as(source));
-        if !constants(&new_target, there, false).iter().any(|c| c.name == theirs.name && c.value == value) {
+        if !constants(&new_target, *part, false).iter().any(|c| c.name == theirs.name && c.value == value) {
             return;
         }
         let entered = new_source.links().entered(&run).chain([self.program]);
@@ -103,7 +108,7 @@ impl Verifier<'_, '_> {
         let mut pair = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
         pair.compare(&scenario, &run, there);
         let mut target_coverage = self.target_coverage.clone();
-        let new_there = target_coverage.add_gone(&pair.target_coverage, &back(&other, there.file));
+        let new_there = target_coverage.add_gone(&pair.target_coverage, &back(&other, part.file));
         if !new_there && !new && pair.witness.is_none() {
             return;
         }
@@ -111,7 +116,7 @@ impl Verifier<'_, '_> {
             variable: ours.name.clone(),
             line: source.line_of(self.program.file, ours.span.start).0,
             register: theirs.name.clone(),
-            target_line: target.line_of(there.file, theirs.span.start).0,
+            target_line: target.line_of(part.file, theirs.span.start).0,
             value,
         };
         if let Some(witness) = &pair.witness {
