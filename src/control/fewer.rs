@@ -13,6 +13,8 @@ pub struct FewerDigits {
     digits: i32,
     /// True where what needs more is only noted, and kept whole.
     notes: bool,
+    /// True where sums, products and quotients are kept whole.
+    functions_only: bool,
     /// Draws to which side a result is off that needs more; none rounds it.
     seed: Option<u64>,
     drawn: Cell<u64>,
@@ -25,13 +27,24 @@ impl FewerDigits {
     pub fn new(digits: u32) -> Self {
         // Between 1 and 17.
         let digits = digits.clamp(1, 17) as i32;
-        Self { digits, notes: false, seed: None, drawn: Cell::new(0), lacked: Cell::new(false) }
+        Self {
+            digits,
+            notes: false,
+            functions_only: false,
+            seed: None,
+            drawn: Cell::new(0),
+            lacked: Cell::new(false),
+        }
     }
 
     /// As a scenario has it, or as the control itself, which keeps so many digits; none for all of a double's.
     pub fn of(scenario: &Scenario, own: Option<u32>) -> Self {
         match (scenario.digits, own) {
-            (Some(digits), _) => Self { seed: scenario.last_digits, ..Self::new(digits) },
+            (Some(digits), _) => Self {
+                seed: scenario.last_digits,
+                functions_only: scenario.functions_only,
+                ..Self::new(digits)
+            },
             (None, Some(own)) => Self::new(own),
             (None, None) => Self { notes: true, ..Self::new(FEWER_DIGITS) },
         }
@@ -54,6 +67,11 @@ impl FewerDigits {
         let Some(seed) = self.seed else { return nearest };
         let off = 10f64.powi(-self.digits);
         if self.side(seed) { value + value * off } else { value - value * off }
+    }
+
+    /// What is kept of a sum, a product or a quotient.
+    pub fn keep_of_operands(&self, value: f64) -> f64 {
+        if self.functions_only { value } else { self.keep(value) }
     }
 
     /// Through decimal text, so that every value kept is the nearest double to its digits.

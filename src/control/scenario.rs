@@ -87,6 +87,9 @@ pub struct Scenario {
     /// that is drawn with this seed; seeds 2n and 2n+1 draw opposite sides.
     #[serde(skip)]
     pub last_digits: Option<u64>,
+    /// True where `digits` are those of functions alone: sums, products and quotients come to what doubles make of them.
+    #[serde(skip)]
+    pub functions_only: bool,
     /// True where a control of which no source says whether it rounds computed words to the least increment is to
     /// do so; else it leaves them as they are.
     pub rounds_words: bool,
@@ -180,6 +183,7 @@ impl Default for Scenario {
             variable_events: false,
             digits: None,
             last_digits: None,
+            functions_only: false,
             rounds_words: false,
             nearness: false,
             steps: 1_000_000,

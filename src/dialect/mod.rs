@@ -7,6 +7,7 @@
 //! addressed, which code an operation has.
 
 mod acts;
+mod arithmetic;
 mod bare_shapes;
 mod check;
 mod check_codes;

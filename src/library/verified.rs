@@ -118,12 +118,12 @@ pub fn judge_telling(
         let program = &mut conversion.programs[*at];
         // What is withdrawn for its callee says so at the call.
         if callees.withdrawn.contains_key(at) {
-            apply(program, callees.place(*at), found);
+            apply(program, callees.place(*at), found, [source, target]);
             callees.reasons(*at, found);
             program.verdict = Some(found.outcome);
         } else {
             callees.reasons(*at, found);
-            apply(program, callees.place(*at), found);
+            apply(program, callees.place(*at), found, [source, target]);
         }
     }
     callees.tell(conversion);
@@ -272,7 +272,12 @@ fn happened(event: &serde_json::Value, same: bool) -> String {
 }
 
 /// Writes into a program's report what the verifier found.
-fn apply(program: &mut super::ProgramReport, span: Span, found: &ProgramCertificate) {
+fn apply(
+    program: &mut super::ProgramReport,
+    span: Span,
+    found: &ProgramCertificate,
+    controls: [&Control; 2],
+) {
     program.verdict = Some(found.outcome);
     match found.outcome {
         verify::Outcome::Same => {}
@@ -307,9 +312,20 @@ fn apply(program: &mut super::ProgramReport, span: Span, found: &ProgramCertific
         }
     }
     if found.rounding_sensitive == Some(true) {
-        let what = "rounding may decide a comparison: the path changes if the target computes with fewer \
-                    digits. Add a tolerance";
-        program.diagnostics.push(Diagnostic::new(Code::RoundingSensitive, span, what));
+        let told = |what: &'static str| Diagnostic::new(Code::RoundingSensitive, span, what);
+        let fewer = "rounding may decide a comparison: the path changes if the target computes with fewer \
+                     digits. Add a tolerance";
+        let functions = "rounding may decide a comparison: the path changes if a function of the target is off in its last \
+                         digit. Add a tolerance";
+        let told = match controls.map(Control::says_double) {
+            _ if controls.iter().all(|control| control.is_said_double()) => told(functions),
+            [Some(ours), Some(theirs)] => told(fewer).with_help(format!(
+                "if both machines calculate with about fifteen digits, say so: {ours} in the profile of the source, \
+                 {theirs} in that of the target; what only adds, multiplies and divides then comes to the same on both"
+            )),
+            _ => told(fewer),
+        };
+        program.diagnostics.push(told);
         program.outcome = program.outcome.max(Outcome::Review);
     }
 }

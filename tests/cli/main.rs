@@ -17,6 +17,7 @@ mod interrupted;
 mod ir;
 mod lathes;
 mod locks;
+mod mills;
 mod outputs;
 mod profiles;
 mod project;

@@ -135,13 +135,18 @@ impl<'c> Numeric<'c> {
 
     /// A result as the control keeps it.
     pub fn keep(&self, value: f64) -> Result<f64, Stop> {
+        self.in_range(value).map(|value| self.digits.keep(value))
+    }
+
+    /// A result that is no larger than the control takes; one that is too small is zero.
+    fn in_range(&self, value: f64) -> Result<f64, Stop> {
         if value.is_nan() || value.abs() > self.answers.largest {
             return Err(Stop::alarm(self.answers.alarms.overflow, "the result is too large"));
         }
         if value.abs() < self.answers.smallest {
             return Ok(0.0);
         }
-        Ok(self.digits.keep(value))
+        Ok(value)
     }
 
     /// True where a result needed more digits than are kept.
@@ -184,6 +189,7 @@ impl<'c> Numeric<'c> {
             _ => {}
         }
         let (a, b) = (self.number(a, trace), self.number(b, trace));
+        let whole = |result: f64| self.in_range(result).map(|value| self.digits.keep_of_operands(value));
         let result = match op {
             Add => a + b,
             Subtract => a - b,
@@ -193,10 +199,10 @@ impl<'c> Numeric<'c> {
                 return Err(Stop::alarm(self.answers.alarms.division, "division by zero"));
             }
             Divide => a / b,
-            Modulo => self.modulo(a, b, trace)?,
-            _ => self.bits(op, a, b, trace),
+            Modulo => return self.modulo(a, b, trace).and_then(|result| self.keep(result)),
+            _ => return self.keep(self.bits(op, a, b, trace)),
         };
-        self.keep(result)
+        whole(result)
     }
 
     fn equal(&self, a: Value, b: Value, trace: &mut Trace) -> bool {

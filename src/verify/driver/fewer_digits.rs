@@ -9,16 +9,28 @@ use crate::verify::sides::SymbolMap;
 impl Verifier<'_, '_> {
     /// The target's run with fewer digits, their last ones rounded or drawn with a seed.
     fn nudged(&self, (there, circumstances): (ProgramRef, &Scenario), last_digits: Option<u64>) -> Run {
-        let target = self.job.target;
-        let nudged = Scenario { digits: Some(FEWER_DIGITS), last_digits, ..circumstances.clone() };
-        target.run(there, &nudged)
+        self.off((there, circumstances), last_digits, false)
+    }
+
+    /// The same; where all but functions comes to the same on both machines, functions alone are off.
+    fn off(&self, of: (ProgramRef, &Scenario), last_digits: Option<u64>, functions_only: bool) -> Run {
+        let (there, circumstances) = of;
+        let digits = Some(FEWER_DIGITS);
+        self.job.target.run(there, &Scenario { digits, last_digits, functions_only, ..circumstances.clone() })
+    }
+
+    /// True if both machines are said to calculate with doubles: sums, products and quotients of the same operands come to
+    /// the same on both.
+    fn calculate_alike(&self) -> bool {
+        [self.job.source, self.job.target].iter().all(|side| side.control.is_said_double())
     }
 
     /// True where the target does something else with fewer digits: rounded, and off by errors that are drawn, and their
     /// opposites, for where rounding hits a tie other errors miss it. Nothing after `upto` counts: from there on the source
     /// does not say what the target should do.
     ///
-    /// Errors are drawn for the first runs, and for each that went a new way.
+    /// Errors are drawn for the first runs, and for each that went a new way. Of machines that are both said to calculate with
+    /// doubles they are errors of functions, which nobody says to be the same on both.
     pub(super) fn is_sensitive(
         &self,
         of: (ProgramRef, &Scenario),
@@ -40,9 +52,10 @@ impl Verifier<'_, '_> {
             let at = apart.difference.map(|difference| place(difference.source));
             at.is_some_and(|at| upto.is_none_or(|upto| at < place(upto)))
         };
-        let rounded = self.nudged(of, None);
+        let functions = self.calculate_alike();
+        let rounded = self.off(of, None, functions);
         let seed = 2 * self.compared as u64;
-        let mut drawn = [seed, seed + 1].into_iter().map(|seed| self.nudged(of, Some(seed)));
+        let mut drawn = [seed, seed + 1].into_iter().map(|seed| self.off(of, Some(seed), functions));
         let is_drawn = rounded.lacked_digits && (went_new_way || self.compared <= self.job.effort.drawn);
         differs(&rounded) || (is_drawn && drawn.any(|nudged| differs(&nudged)))
     }

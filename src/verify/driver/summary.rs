@@ -31,6 +31,9 @@ impl Verifier<'_, '_> {
         for open in &open_facts {
             self.because(Why::Unconfirmed, &open.text);
         }
+        if self.is_stopped_alone() {
+            self.reasons.remove(&Why::SourceAlarms);
+        }
         let assumptions = self.assumptions();
         let mut outcome = match (&self.witness, self.reasons.is_empty()) {
             (Some(_), _) => Outcome::Different,
@@ -93,6 +96,14 @@ impl Verifier<'_, '_> {
             entered: self.entered,
             assumptions,
         }
+    }
+
+    /// True if nothing is open but that the source's control stops a program which is run by itself, as a peck cycle whose
+    /// depth its caller gives, and if all runs of its callers come through it and do the same.
+    fn is_stopped_alone(&self) -> bool {
+        let others = self.reasons.keys().filter(|why| **why != Why::Unconfirmed);
+        let stops = self.called && self.witness.is_none() && others.eq([&Why::SourceAlarms]);
+        stops && through(self.job, self.program, &self.shown, self.tolerance).shows_all()
     }
 }
 

@@ -48,6 +48,8 @@ pub struct Through {
     pub absent: BTreeSet<String>,
     /// True where a run came through it.
     pub entered: bool,
+    /// True where a control stopped one of them, or an assumption excuses what it did.
+    pub open: bool,
 }
 
 impl Through {
@@ -60,6 +62,11 @@ impl Through {
     /// True where runs came through the program, and did the same.
     pub fn does_the_same(&self) -> bool {
         self.entered && !self.differs && !self.callers.is_empty()
+    }
+
+    /// The same where everything that calls the program could be run, and every run shows something.
+    pub fn shows_all(&self) -> bool {
+        self.does_the_same() && self.absent.is_empty() && !self.open
     }
 
     /// True where runs came through the program, and the control stopped each of them.
@@ -132,7 +139,10 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
                 // Where a control stops the run, nothing is shown.
                 Some(difference)
                     if stops_by_itself(&run, &difference)
-                        || excuse(&tried(job, &run, &other), &run, &other, &difference).is_some() => {}
+                        || excuse(&tried(job, &run, &other), &run, &other, &difference).is_some() =>
+                {
+                    found.open = true;
+                }
                 Some(_) => {
                     found.differs = true;
                     return found;

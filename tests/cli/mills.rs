@@ -1,0 +1,69 @@
+//! What the verifier makes of programs as mill shops write them.
+
+use super::Shop;
+
+const HAAS: &str = "dialect = \"haas\"\nunits = \"metric\"\n";
+const FANUC: &str = "dialect = \"fanuc\"\nunits = \"metric\"\n";
+const HEAD: &str = "G21 G17 G40 G49 G80 G90 G94 G54";
+
+/// What a conversion between the two prints.
+fn convert(way: &str, program: &str, (haas, fanuc): (&str, &str)) -> String {
+    let (haas, fanuc) = (format!("{HAAS}{haas}"), format!("{FANUC}{fanuc}"));
+    let shop = Shop::with(&[("a.nc", program), ("h.toml", &haas), ("f.toml", &fanuc)]);
+    let run = shop.run(&format!("convert a.nc {way} --machine h.toml --machine f.toml"));
+    format!("{}{}", run.out, run.err)
+}
+
+/// On the target a limit on reading ahead stands between the code and the alarm: nobody sees the difference.
+#[test]
+fn a_code_before_an_alarm_counts_on_both_sides_or_on_none() {
+    for code in ["M19", "M3 S500", "M8"] {
+        let program = format!("O1\n{HEAD}\n{code}\nIF[#1005EQ1]GOTO8\nG4X1.\nN8#3000=45(LOW)\nM30\n");
+        let said = convert("--from fanuc --to haas", &program, ("", ""));
+        assert!(said.contains("1 converted") && !said.contains("MG0801"), "{code}: {said}");
+    }
+}
+
+/// The constants of a local subprogram stand in a program of their own on the target. Edited on both sides they show the way
+/// that the last pass is cut to its depth: 5 passes of 0.4 come to 2 without it.
+#[test]
+fn constants_of_a_local_subprogram_are_edited_too() {
+    let pass = "WHILE [#1 GT #2] DO1\n#1=#1-#3\nIF [#1 LT #2] THEN #1=#2\nG1 Z#1 F100.\nEND1";
+    let program = format!("O1000\n{HEAD}\nM97 P5\nM30\nN5\n#1=0.\n#2=-2.\n#3=1.\n{pass}\nM99\n");
+    let said = convert("--from haas --to fanuc", &program, ("", ""));
+    assert!(said.contains("1 converted") && !said.contains("MG0802"), "{said}");
+}
+
+/// Twenty times 0.1 is a little more than 2 in doubles, and 2 in decimals: what both machines calculate with decides whether
+/// they do the same. Functions may be off in their last digit on either.
+#[test]
+fn machines_that_are_both_said_to_calculate_with_doubles_add_alike() {
+    let program = |step: &str| {
+        format!("O1\n{HEAD}\n#1=0.\nWHILE [#1 GT -2.] DO1\n#1=#1-{step}\nG1 Z#1 F100.\nEND1\nM30\n")
+    };
+    let doubles = ("[settings]\narithmetic = \"double\"\n", "[parameters]\n6008.0 = \"0\"\n");
+    let said = convert("--from haas --to fanuc", &program("0.1"), ("", ""));
+    assert!(said.contains("MG0803") && said.contains("arithmetic = \"double\" under [settings]"), "{said}");
+    for half in [(doubles.0, ""), ("", doubles.1)] {
+        let said = convert("--from haas --to fanuc", &program("0.1"), half);
+        assert!(said.contains("MG0803"), "{half:?}: {said}");
+    }
+    let said = convert("--from haas --to fanuc", &program("0.1"), doubles);
+    assert!(said.contains("1 converted") && !said.contains("MG0803"), "{said}");
+    let said = convert("--from haas --to fanuc", &program("SIN[30.]/5."), doubles);
+    assert!(said.contains("MG0803") && said.contains("a function of the target"), "{said}");
+}
+
+/// Run by itself the subprogram has no depth of its pecks, which is an alarm (PS0045) on the source alone. Its caller gives
+/// one. If a caller may give none, it stays for review.
+#[test]
+fn a_subprogram_that_its_callers_give_the_pecks_stops_by_itself_alone() {
+    let sub = "O1002\nG99 G83 X0. Y0. Z-10. R2. Q#9 F100.\nG80\nM99\n";
+    let head = HEAD.replace("G49 ", "");
+    let main = format!("O1001\n{head}\n#9=2.\nM3 S500\nG0 X0. Y0.\nG43 H1 Z5.\nM98 P1002\nM30\n");
+    let said = convert("--from fanuc --to haas", &format!("{main}{sub}"), ("", ""));
+    assert!(said.contains("2 converted"), "{said}");
+    let open = main.replace("#9=2.", "#9=#500");
+    let said = convert("--from fanuc --to haas", &format!("{open}{sub}"), ("", ""));
+    assert!(!said.contains("2 converted"), "{said}");
+}
