@@ -1,6 +1,7 @@
 //! The words for facts that no manual confirms.
 
-use super::{Control, Mark, Question, Setting, matters};
+use super::overlay::conditions;
+use super::{Control, Mark, Question, Row, Setting, matters};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -95,8 +96,8 @@ impl Control {
             let says = |sets: Option<&BTreeMap<String, String>>| sets.is_some_and(|s| s.contains_key(fact));
             if open { answers.any(says) } else { row.origin.is_settled() && answers.all(says) }
         };
-        let settings = self.dialect().settings.iter().filter(|row| !row.values.is_empty());
-        match settings.clone().find(sets) {
+        let mut settings = self.dialect().settings.iter().filter(|row| !row.values.is_empty());
+        match self.open_setting(fact).or_else(|| settings.find(sets)) {
             Some(row) => {
                 let (section, name) = match row.name.strip_prefix("parameter.") {
                     Some(number) => ("parameters", number),
@@ -112,6 +113,23 @@ impl Control {
                 _ => Settled::Confirmed(fact.to_owned()),
             },
             None => Settled::Confirmed(fact.to_owned()),
+        }
+    }
+
+    /// The setting that a row of system variables holds under, where the table takes a value that nobody stated.
+    fn open_setting(&self, fact: &str) -> Option<&Setting> {
+        let rows = self.dialect().system.iter().filter(|row| !row.origin.is_settled() && row.fact() == fact);
+        let names = rows.filter_map(|row| row.when.as_deref()).flat_map(conditions).map(|(name, _)| name);
+        let mut settings = names.filter_map(|name| self.setting_row(name));
+        settings.find(|row| row.assumed && !row.values.is_empty() && !self.states(&row.name))
+    }
+
+    /// True if the machine's profile says the value of a setting itself.
+    fn states(&self, name: &str) -> bool {
+        let profile = self.profile();
+        match name.strip_prefix("parameter.") {
+            Some(number) => profile.parameters.contains_key(number),
+            None => profile.settings.contains_key(name.trim_start_matches("setting.")),
         }
     }
 

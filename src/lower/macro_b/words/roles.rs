@@ -223,9 +223,9 @@ impl<'a> Lowering<'a> {
                 word.letter
             );
             let told = Diagnostic::new(Code::Conditional, span, what);
-            return self
-                .findings
-                .add(told.with_help("take it out of the program, or write the cycle that takes it"));
+            return self.findings.add(
+                told.with_help("take it out of the program, or write the cycle that takes it").asked_once(),
+            );
         }
         // A code that acts in its block alone is the one that takes words of its own.
         let own = codes.iter().find(|(_, row)| row.op.group() == Group::OneShot || row.op.is_cycle());
