@@ -50,10 +50,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let here = if before == Some(Op::CycleOff) { Lasting::default() } else { here };
                 let begins = begins(nc);
                 for role in untaken(nc, op, context.target) {
-                    let what = format!(
-                        "the target's code for this cycle ({op}) does not take this word \
-                                        ({role})"
-                    );
+                    let what = word_too_much(op, role, context);
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                 }
                 if !begins {
@@ -249,6 +246,17 @@ fn letter_is_another(op: Op, control: &Control) -> bool {
 /// True where the code that the control has for a cycle takes a word.
 fn takes(control: &Control, op: Op, role: Role) -> bool {
     control.code_for(op, &BTreeMap::new()).is_some_and(|row| row.takes(role))
+}
+
+/// A word of the source's cycle that the target's has nothing like, by the codes and the letter that the programmer knows.
+fn word_too_much(op: Op, role: Role, context: &Context<'_>) -> String {
+    let rows = [context.source, context.target].map(|control| control.code_for(op, &BTreeMap::new()));
+    let [Some(ours), Some(theirs)] = rows else {
+        return format!("the target's code for this cycle ({op}) does not take this word ({role})");
+    };
+    let letter = ours.words.iter().find(|(_, found)| **found == role).map(|(letter, _)| letter.as_str());
+    let word = letter.map_or_else(|| format!("a word ({role})"), ToOwned::to_owned);
+    format!("{word} beside {} of the source: {} of the target has nothing like it", ours.code, theirs.code)
 }
 
 /// The words of a block that the target's code does not take. A dwell of 0 is left out.

@@ -42,6 +42,8 @@ fn moved(block: &Block, mut state: Modal) -> Vec<(usize, Option<usize>)> {
     let mut found = Vec::new();
     let mut waits: Option<usize> = None;
     let mut off: Option<usize> = None;
+    // A number that is computed is the same as long as nothing is assigned.
+    let mut computed = false;
     for (at, stmt) in block.stmts.iter().enumerate() {
         let before = state.clone();
         state.step(stmt);
@@ -67,12 +69,13 @@ fn moved(block: &Block, mut state: Modal) -> Vec<(usize, Option<usize>)> {
             waits = None;
         } else if let Some(nc) = names {
             let begins = stmt.site.skip.is_none() && moves_by_code(nc, &before) && goes(nc, &state);
+            computed = nc.word(Role::LengthOffset).is_some_and(|row| row.constant().is_none());
             // What is named anew before it counts was never used.
             found.extend(waits.filter(|_| begins && says_all(nc)).map(|from| (from, None)));
             waits = begins.then_some(at);
             let ends = nc.has(Op::LengthOff) && nc.word(Role::Z).is_none() && stmt.site.skip.is_none();
             off = (ends && goes(nc, &state)).then_some(at);
-        } else if !is_quiet(stmt, &state) {
+        } else if !is_quiet(stmt, &state) || computed && matches!(stmt.kind, StmtKind::Assign { .. }) {
             waits = None;
         }
     }
@@ -95,8 +98,8 @@ fn is_of_length(item: &NcItem) -> bool {
 
 /// True for a block whose code of the length may go to a later one.
 fn goes(nc: &Nc, after: &Modal) -> bool {
-    let row = nc.word(Role::LengthOffset).map(Expr::constant);
-    row != Some(None) && is_plain(nc.items.iter().filter(|item| !is_of_length(item)), after)
+    nc.word(Role::LengthOffset).is_none_or(|row| !reads_state(row))
+        && is_plain(nc.items.iter().filter(|item| !is_of_length(item)), after)
 }
 
 /// True for a straight move to an absolute place along the axis of the length.
