@@ -67,3 +67,13 @@ fn a_subprogram_that_its_callers_give_the_pecks_stops_by_itself_alone() {
     let said = convert("--from fanuc --to haas", &format!("{open}{sub}"), ("", ""));
     assert!(!said.contains("2 converted"), "{said}");
 }
+
+/// A control without exact stop: that it is left out is told, and no difference between the runs.
+#[test]
+fn an_exact_stop_of_one_block_that_is_left_out_is_no_difference() {
+    let program = format!("O1\n{HEAD}\nG1 X0. Y0. Z0. F100.\nG9 X5.\nM30\n");
+    let shop = Shop::with(&[("a.nc", &program), ("f.toml", FANUC)]);
+    let run = shop.run("convert a.nc --from fanuc --to fadal --machine f.toml");
+    assert!(run.err.contains("exact stop at the end of a block is dropped"), "{}{}", run.out, run.err);
+    assert!(!run.out.contains("REFUSED") && !run.err.contains("MG0801"), "{}{}", run.out, run.err);
+}

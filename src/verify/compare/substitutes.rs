@@ -35,10 +35,10 @@ pub fn goes_on(target: &Side<'_>, source: &EventKind, there: Op) -> Option<(Op, 
         .then(|| (lacking, format!("the target has only one kind of coolant: {there} is on")))
 }
 
-/// A mode of corners or ramps, or a limit on reading ahead, that the target has no code for.
+/// A mode of corners or ramps, an exact stop of one block, or a limit on reading ahead, that the target has no code for.
 pub fn is_left_out(target: &Side<'_>, source: &EventKind) -> Option<(Op, String)> {
     let EventKind::Other { operation, .. } = source else { return None };
-    (is_mode(source) && lacks(target, *operation))
+    ((is_mode(source) || *operation == Op::ExactStopOnce) && lacks(target, *operation))
         .then(|| (*operation, format!("the target has no {operation}: it is dropped")))
 }
 
