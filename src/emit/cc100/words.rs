@@ -36,8 +36,13 @@ impl<'p> Emitter<'p> {
                 self.begin(site);
                 return self.out.unmapped("variables and numbers in one block");
             }
-            // What stops the program comes after the move.
-            let stops = |item: &NcItem| matches!(item, NcItem::Op(Op::OptionalStop | Op::Stop));
+            // What stops the program comes after the move, and so does what ends spindle or coolant there.
+            let after = self.control.behaviour(Question::MStopActs).is_some_and(|row| row.value == "end");
+            let stops = |item: &NcItem| match item {
+                NcItem::Op(Op::OptionalStop | Op::Stop) => true,
+                NcItem::Op(Op::SpindleStop | Op::CoolantOff) => after,
+                _ => false,
+            };
             let (stop, first): (Vec<NcItem>, Vec<NcItem>) = first.into_iter().partition(stops);
             // The spindle must not start at the speed of before.
             let starts = first.iter().any(|item| matches!(item, NcItem::Op(Op::SpindleCw | Op::SpindleCcw)));
