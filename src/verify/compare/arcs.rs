@@ -21,7 +21,8 @@ pub fn joined(acts: Vec<Act<'_>>, cut: bool) -> Vec<Act<'_>> {
         match (whole, out.last_mut()) {
             (Some(whole), Some(last)) => {
                 last.what = What::other(whole);
-                last.rounded = last.rounded.max(act.rounded);
+                // Ends of pieces are written with five digits, in inches too: so near the whole arc they keep.
+                last.rounded = last.rounded.max(act.rounded).max(CENTRES);
                 pieces += 1;
             }
             _ => {
