@@ -39,6 +39,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Turns all locals into statics.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     refuse_computed(module, context);
+    let kept = repeats::kept(module, context.source);
     module.programs.iter_mut().for_each(|program| repeats::loops(program, |call| call.level));
     let levels = Levels::of(module, context.source);
     for (index, program) in module.programs.iter_mut().enumerate() {
@@ -47,6 +48,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let cut = calls::cut(module);
     let exposed = UpwardExposed::among(&cut, statics(module));
+    repeats::refuse(kept, module, (&levels, &exposed), context);
     let opened = calls::pass(module, &levels, &exposed);
     calls::keep(module, &cut, &opened, &levels, context);
     for index in roots(module) {
