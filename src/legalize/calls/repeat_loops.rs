@@ -1,10 +1,13 @@
 //! Calls that run more often than the target's count says.
 //!
 //! Law: a loop that calls once and counts n down runs the callee n times. Side condition: n is a whole number; a count
-//! below 1 runs nothing here, and what it does on the source no maker's text says. Counter-example: `M98 P10 L150` on a
-//! control whose count has two digits.
+//! below 1 runs nothing here, and what it does on the source no maker's text says. Arguments are set before each run: if the
+//! source sets them once, and the macro may change them, the call is refused. Counter-example: `M98 P10 L150` on a control whose
+//! count has two digits.
 
-use crate::ir::{Call, Module};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::{Block, Call, Callee, Class, Module, Place, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::frames::repeats::loops;
@@ -24,5 +27,43 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let count = call.count.as_ref().map(|count| count.constant());
         count.is_some_and(|count| count.is_none_or(|count| !(0.0..=most).contains(&count)))
     };
+    refuse(module, wanted, context);
     module.programs.iter_mut().for_each(|program| loops(program, wanted));
 }
+
+/// Refuses the calls whose macro may change its arguments, of a source whose repeats do not set them again: the loop does.
+fn refuse(module: &Module, wanted: impl Fn(&Call) -> bool, context: &mut Context<'_>) {
+    let answer = context.source.behaviour(Question::CallRepeatReloadsArguments).map(|row| row.value.as_str());
+    if answer != Some("false") {
+        return;
+    }
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            let TermKind::Call { call, .. } = &block.term.kind else { continue };
+            if call.level && wanted(call) && !leaves_locals(module, &call.callee) {
+                let found = Diagnostic::new(Code::NoEquivalent, block.term.site.span, CHANGES);
+                context.add(index, found.with_help(CHANGES_HELP));
+            }
+        }
+    }
+}
+
+/// True if a program writes no locals, and nothing that it calls can write them for it.
+fn leaves_locals(module: &Module, callee: &Callee) -> bool {
+    let Callee::Program(name) = callee else { return false };
+    let mut named = module.programs.iter().filter(|program| program.name.as_ref() == Some(name)).peekable();
+    let writes = |stmt: &Stmt| match stmt.kind.target() {
+        Some(Place::Var(var)) => var.class == Class::Local,
+        Some(Place::Indirect(..)) => true,
+        _ => matches!(stmt.kind, StmtKind::ClearAll(_)),
+    };
+    let keeps = |block: &Block| {
+        let shares = matches!(&block.term.kind, TermKind::Call { call, .. } if !call.level);
+        !shares && !block.stmts.iter().any(writes)
+    };
+    named.peek().is_some() && named.all(|program| program.blocks.iter().all(keeps))
+}
+
+const CHANGES: &str = "the called program may change an argument that its next repeat reads, and the source does not set it again; the target \
+                       needs a loop for this count, which sets it each time";
+const CHANGES_HELP: &str = "give what one run leaves for the next a common variable";
