@@ -30,7 +30,10 @@ impl<'p> Emitter<'p> {
         if nc.items.iter().any(by_variable) {
             let (first, rest): (Vec<NcItem>, Vec<NcItem>) =
                 nc.items.iter().cloned().partition(|item| !by_variable(item) && !self.is_by_word(nc, item));
-            let moves = |item: &NcItem| matches!(item, NcItem::Word(role, _) if acts_with_move(*role));
+            // Apart from its G code a time would be a feed.
+            let waits =
+                |role: Role| spelled == Some(Op::Dwell) && matches!(role, Role::DwellS | Role::DwellMs);
+            let moves = |item: &NcItem| matches!(item, NcItem::Word(role, _) if acts_with_move(*role) || waits(*role));
             let once = |item: &NcItem| matches!(item, NcItem::Op(op) if op.takes_axes());
             if first.iter().any(|item| moves(item) || once(item)) {
                 self.begin(site);
