@@ -7,7 +7,7 @@ const COLUMN: &str = "numbers:arithmetic";
 const DOUBLE: &str = "double";
 
 impl Control {
-    /// The line of a profile that says that the machine calculates with about fifteen digits; none where its table has no
+    /// The line of a profile that says that the machine calculates with about fifteen digits. No line, if its table has no
     /// setting for that.
     pub fn says_double(&self) -> Option<String> {
         let (section, key, value) = self.double_setting()?;

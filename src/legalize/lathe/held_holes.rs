@@ -148,7 +148,7 @@ impl Cycle {
         }
     }
 
-    /// The blocks of a hole; none where something of it is not known.
+    /// The blocks of a hole. No blocks, if something of it is not known.
     fn written(
         &self,
         nc: &Nc,
