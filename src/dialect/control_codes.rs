@@ -181,6 +181,16 @@ impl Control {
         (!ranged).then_some(value)
     }
 
+    /// The common numbers that the word has beside a code, as `0 to 6 and 101 to 142`; none where it has all.
+    pub fn numbers_of(&self, code: Option<&CodeMeaning>, role: Role) -> Option<String> {
+        let range = |shift: &super::Shift| {
+            let [first, last] = [shift.first, shift.last].map(|number| i64::from(number) + shift.add);
+            if first == last { first.to_string() } else { format!("{first} to {last}") }
+        };
+        let ranges: Vec<String> = self.shifts(code, role).map(range).collect();
+        (!ranges.is_empty()).then(|| ranges.join(" and "))
+    }
+
     fn shifts<'c>(
         &'c self,
         code: Option<&'c CodeMeaning>,

@@ -170,6 +170,10 @@ impl Control {
         if may && row.modal != Some(false) {
             return Ok(Some(mode));
         }
+        if matches!(mode.op, Op::CheckInch | Op::CheckMetric) {
+            let what = format!("'{word}' asks which unit the machine is set to, and sets none");
+            return Err((what, "leave it out, and say it as units = \"inch\" or \"metric\"".into()));
+        }
         let help =
             "name the unit, absolute or incremental, the plane, the feed mode, G0 or G1, and the work offset";
         Err((format!("'{word}' is nothing that a program begins in"), help.into()))

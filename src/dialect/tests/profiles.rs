@@ -233,6 +233,10 @@ fn a_machine_begins_in_what_its_profile_says() {
     start("ABS", "'ABS' is no code");
     start("G777", "Fanuc Custom Macro B has no code G777");
     wrong(
+        "dialect = \"fadal\"\n[start]\ncodes = \"G21\"",
+        "p.toml:3:1: MG0203: 'G21' asks which unit the machine is set to, and sets none",
+    );
+    wrong(
         "dialect = \"fanuc\"\nunits = \"metric\"\n[start]\ncodes = \"G20\"",
         "p.toml:4:1: MG0203: [start] names another unit than 'units'",
     );

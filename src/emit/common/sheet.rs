@@ -3,8 +3,9 @@
 use super::digits::{write_digits, write_integer};
 use super::labels::Labels;
 use super::lines::Line;
+use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{CodeMeaning, Control};
 use crate::emit::Emitted;
 use crate::text::Span;
 use std::string::FromUtf8Error;
@@ -81,6 +82,14 @@ impl Sheet<'_> {
     pub fn unmapped(&mut self, what: impl std::fmt::Display) {
         let message = format!("{} has no way to write {what}", self.control.dialect().title);
         self.refuse(Code::Unmapped, message);
+    }
+
+    /// Notes that the control's word has no such number.
+    pub fn lacks_number(&mut self, number: f64, role: Role, code: Option<&CodeMeaning>) {
+        let meaning = role.meaning().trim().trim_end_matches('.');
+        let has =
+            self.control.numbers_of(code, role).map(|has| format!("; it has {has}")).unwrap_or_default();
+        self.unmapped(format_args!("{number} as the word '{role}' ({meaning}){has}"));
     }
 
     /// Notes that a variable of the block got no register. Who got those that there are is told of the program.

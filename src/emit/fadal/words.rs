@@ -178,7 +178,7 @@ impl<'p> Emitter<'p> {
             Some(number) if spellings.is_shifted(role, code) => {
                 match self.control.written(code.map(|code| code.row), role, number) {
                     Some(written) => &Expr::Number(written),
-                    None => return self.out.unmapped(format_args!("{number} as the word '{role}'")),
+                    None => return self.out.lacks_number(number, role, code.map(|code| code.row)),
                 }
             }
             None if spellings.is_shifted(role, code) => {

@@ -189,7 +189,7 @@ impl<'p> Emitter<'p> {
         match value.constant() {
             Some(number) => match self.control.written(row, role, number) {
                 Some(written) => self.literal(role, written),
-                None => self.out.unmapped(format_args!("{number} as the word '{role}'")),
+                None => self.out.lacks_number(number, role, row),
             },
             None if code.is_some_and(|code| code.adds(role, add)) => self.word_value(role, base),
             None => self.out.unmapped(format_args!("a computed value of the word '{role}'")),
