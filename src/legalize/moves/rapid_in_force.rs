@@ -3,11 +3,12 @@
 //! Law: such a move is a rapid on the source whatever interpolation is in force, and leaves that alone. So where another one is in
 //! force, or it is not known which, the target's block has the code of the rapid too, in the place of one that it has, and the
 //! interpolation that was in force is said again, unless the next block that moves says its own. Side condition: it is known, and is
-//! the straight feed. Counter-example: the move between two blocks of a modal pass.
+//! the straight feed. Where no source says how the source's control moves, the block stays, and the question is told: one answer
+//! for both is enough. Counter-example: the move between two blocks of a modal pass.
 
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Machine, Question};
+use crate::dialect::{Control, Machine, Question};
 use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
@@ -15,9 +16,14 @@ use crate::legalize::features::Features;
 /// True where the target is such a machine, and the library moves so. A mill is, where only the source's moves are rapid.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let rapid = context.target.behaviour(Question::MachineMoveRapid);
-    (context.target.machine() == Machine::Lathe || context.source.is(Question::MachineMoveRapid))
+    (context.target.machine() == Machine::Lathe || answer(context.source) != Some("false"))
         && features.op(Op::MachineOnce)
-        && rapid.is_some_and(|row| row.value == "false")
+        && rapid.is_some_and(|row| row.value != "true")
+}
+
+/// What is known of a control's moves in machine coordinates.
+fn answer(control: &Control) -> Option<&str> {
+    control.behaviour(Question::MachineMoveRapid).map(|row| row.value.as_str())
 }
 
 /// Writes the code of the rapid; true where it was missing.
@@ -47,6 +53,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     before != Some(Op::Rapid)
                 };
                 if !moves || !lacks {
+                    block.stmts.push(stmt);
+                    continue;
+                }
+                if is_mill && !context.source.is(Question::MachineMoveRapid) {
+                    context.rests_on_source(index, stmt.site.span, Question::MachineMoveRapid);
+                    context.rests_on_target(index, stmt.site.span, Question::MachineMoveRapid);
                     block.stmts.push(stmt);
                     continue;
                 }
