@@ -97,6 +97,12 @@ fn grammar_block(rules: &Rules, source: &[u8], span: Span, line_start: u32, shap
             return unread(span, None, faults::not_tiled(span));
         }
         Ok(()) => tree::build(source, &row, rules.rank),
+        Err(stop)
+            if is_after_sign(source, line_start, span)
+                && matches!(bytes.trim_ascii(), [b'A'..=b'Z' | b'a'..=b'z', ..]) =>
+        {
+            Err(faults::remark(span, faults::explain(source, span, line_start, shape, &stop)))
+        }
         Err(stop) => Err(faults::explain(source, span, line_start, shape, &stop)),
     };
     match tree {
@@ -109,6 +115,11 @@ fn grammar_block(rules: &Rules, source: &[u8], span: Span, line_start: u32, shap
         }
         Err(fault) => unread(span, end_of_block(bytes, span), fault),
     }
+}
+
+/// True where a `;` ends a block before this one in its line.
+fn is_after_sign(source: &[u8], line_start: u32, span: Span) -> bool {
+    source[line_start as usize..span.start as usize].trim_ascii_end().ends_with(b";")
 }
 
 /// A block whose text is kept and not understood.

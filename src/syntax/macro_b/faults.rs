@@ -66,6 +66,20 @@ fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxErr
     }
 }
 
+/// The fault of a block after a `;`: text there is a remark more often than a block.
+pub fn remark(block: Span, fault: SyntaxError) -> SyntaxError {
+    match fault.code {
+        Code::WordWithoutValue | Code::Unreadable => SyntaxError {
+            span: block,
+            message:
+                "`;` ends the block, and what stands after it is no block: write a remark in `(` and `)`"
+                    .into(),
+            ..fault
+        },
+        _ => fault,
+    }
+}
+
 fn loop_word(span: Span) -> SyntaxError {
     fault(Code::LoopWordSlip, span, "this is a zero: write DO with the letter O")
 }

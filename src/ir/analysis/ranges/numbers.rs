@@ -72,14 +72,41 @@ impl Numbers {
 }
 
 impl Numbers {
-    /// In words, where this stands before the number of a variable: `V1-V33, V100`.
+    /// In words, where this stands before the number of a variable: `V1-V33, V100`. Runs of one length at one distance, as the
+    /// axes of work offsets are, are told by the first and the last: `#5221-#5225 and so on by 20 to #5321-#5325`.
     pub fn in_words(&self, name: &str) -> String {
-        let words = self.0.iter().map(|(first, last)| match first == last {
+        let word = |(first, last): (u32, u32)| match first == last {
             true => format!("{name}{first}"),
             false => format!("{name}{first}-{name}{last}"),
-        });
-        words.collect::<Vec<_>>().join(", ")
+        };
+        let mut words = Vec::new();
+        let mut rest = self.0.as_slice();
+        while let [first, after @ ..] = rest {
+            let alike = alike(rest);
+            if alike >= SO_ON {
+                let by = after[0].0 - first.0;
+                words.push(format!("{} and so on by {by} to {}", word(*first), word(rest[alike - 1])));
+                rest = &rest[alike..];
+            } else {
+                words.push(word(*first));
+                rest = after;
+            }
+        }
+        words.join(", ")
     }
+}
+
+/// From how many runs on the first and the last say it.
+const SO_ON: usize = 4;
+
+/// How many runs at the start have one length and one distance.
+fn alike(runs: &[(u32, u32)]) -> usize {
+    let [(first, last), (second, _), ..] = runs else { return runs.len() };
+    let (length, by) = (last - first, second - first);
+    let fits = |(at, (from, to)): &(usize, &(u32, u32))| {
+        to - from == length && u64::from(*from) == u64::from(*first) + u64::from(by) * *at as u64
+    };
+    runs.iter().enumerate().take_while(fits).count()
 }
 
 /// As people write numbers of variables: `#1-#33, #100`.

@@ -192,3 +192,13 @@ fn sets_of_numbers_are_joined_and_cut() {
     assert_eq!(Values::one(-2.0).numbers(), all(&[]));
     assert_eq!(Values::ANY.numbers(), all(&[(0, u32::MAX)]));
 }
+
+/// Three axes of six work offsets, as the manuals number them: the first and the last say it.
+#[test]
+fn runs_at_one_distance_are_told_by_the_first_and_the_last() {
+    let offsets = (0..6).map(|number| (5221 + 20 * number, 5223 + 20 * number));
+    let numbers: Numbers =
+        Numbers::of([(1, 33), (500, 500)].into_iter().chain(offsets).chain([(7001, 7003), (7021, 7023)]));
+    let told = "#1-#33, #500, #5221-#5223 and so on by 20 to #5321-#5323, #7001-#7003, #7021-#7023";
+    assert_eq!(numbers.to_string(), told);
+}

@@ -139,6 +139,18 @@ fn slips_are_named_at_their_column() {
 }
 
 #[test]
+fn text_after_the_end_of_a_block_is_told_to_be_a_remark() {
+    for dialect in BOTH {
+        let found = faults(&dialect, b"#101=0 ; Centre of rotation X");
+        let [fault] = found.as_slice() else { panic!("{found:?}") };
+        assert_eq!((fault.code, fault.span.start), (Code::WordWithoutValue, 8));
+        assert!(fault.message.contains("write a remark in `(` and `)`"), "{}", fault.message);
+        assert_eq!(faults(&dialect, b"#101=0 ; G54"), []);
+        assert!(!faults(&dialect, b"#101=0 ; #102=")[0].message.contains("remark"));
+    }
+}
+
+#[test]
 fn fanuc_nests_brackets_five_deep() {
     let five = "#1=[[[[[1]]]]]";
     let six = "#1=SIN[[[[[[1]]]]]]";
