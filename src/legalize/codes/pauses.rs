@@ -4,15 +4,15 @@
 //! that is the same on every control. An optional stop takes none, as nothing ends where it is switched off, and a tool
 //! change is left to the machine, unless its table says nothing of it and something is known to run. What a stop ends
 //! matters after it where the program cuts before it says itself what runs: then the facts that no source confirms are
-//! named.
+//! named. A change that the target passes over where the tool is in the spindle ends nothing there, unless it is known to be another.
 //! What a message or a stop leaves running, and the target's stop ends, is started again after it where it is known, after an optional stop too.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
 mod after;
 
-use crate::canon::{Group, Op, Pause, Running, Sys};
+use crate::canon::{Group, Op, Pause, Role, Running, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
@@ -94,6 +94,10 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let (after, started) = (After::of(module, &facts), started(module, context));
     let holds = context.features.op(Op::SpindleOrient);
     let lost = lost(module, context.source);
+    let passes = |control: &Control| {
+        control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
+    };
+    let passes = passes(context.target) && !passes(context.source);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| stops_in(block)) {
             let mut place = Place {
@@ -107,6 +111,8 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 lost,
                 after: &after,
                 again: Vec::new(),
+                tool: None,
+                passes,
             };
             let before = place.block(block, context);
             let again = std::mem::take(&mut place.again);
@@ -223,6 +229,16 @@ pub(in crate::legalize) fn pause_of(kind: &StmtKind) -> Option<(Pause, bool)> {
     }
 }
 
+/// The tool in the spindle after a statement, where it is known; a call may change it.
+fn tool_after(kind: &StmtKind, before: Option<f64>) -> Option<f64> {
+    match kind {
+        StmtKind::Nc(nc) if nc.has(Op::ToolChange) => nc.word(Role::Tool)?.constant(),
+        StmtKind::Nc(nc) if nc.items.iter().any(|item| matches!(item, NcItem::Code(..))) => None,
+        StmtKind::Nc(_) | StmtKind::Assign { .. } => before,
+        _ => None,
+    }
+}
+
 /// True for a block that changes the tool and then starts it.
 fn restarts(kind: &StmtKind, running: Running) -> bool {
     matches!(kind, StmtKind::Nc(nc) if nc.has(Op::ToolChange) && starts(running).iter().any(|op| nc.has(*op)))
@@ -254,6 +270,10 @@ struct Place<'p> {
     after: &'p After<'p>,
     /// What the target ends at the stop and the source does not: it is started again after it.
     again: Vec<(usize, Op)>,
+    /// The tool that the block put into the spindle last.
+    tool: Option<f64>,
+    /// True where the target passes over a change to the tool that is in the spindle: then it ends nothing.
+    passes: bool,
 }
 
 impl Place<'_> {
@@ -263,12 +283,16 @@ impl Place<'_> {
         for (number, stmt) in block.stmts.iter().enumerate() {
             let pause = pause_of(&stmt.kind);
             self.state.step(stmt);
+            let before = self.tool;
+            self.tool = tool_after(&stmt.kind, before).filter(|_| !self.state.may_call());
+            let is_other = matches!((before, self.tool), (Some(before), Some(tool)) if before != tool);
             self.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
             self.skipped = stmt.site.skip.is_some();
             let Some((pause, optional)) = pause else { continue };
             // What stands beside a move is left: before it, the move would find it ended.
             let moves = pause == Pause::Change && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves());
-            let before = self.stop((pause, optional, moves), number + 1, stmt.site.span, context);
+            let ends = !(pause == Pause::Change && self.passes && !is_other);
+            let before = self.stop((pause, optional, moves, ends), number + 1, stmt.site.span, context);
             if before.is_empty() {
                 continue;
             }
@@ -280,7 +304,8 @@ impl Place<'_> {
         let goes_on = context.goes_on && self.index + 1 == context.origins.len();
         if ends_run(&block.term.kind) && !(goes_on && block.term.kind == TermKind::Stray) {
             (self.restarted, self.skipped) = ([false; 2], false);
-            let before = self.stop((Pause::End, false, false), usize::MAX, block.term.site.span, context);
+            let before =
+                self.stop((Pause::End, false, false, true), usize::MAX, block.term.site.span, context);
             if !before.is_empty() {
                 found.insert(block.stmts.len(), before);
             }
@@ -297,11 +322,11 @@ impl Place<'_> {
         }
     }
 
-    /// What has to be ended before a stop, which may be passed over or change the tool beside a move; `number` is that of
-    /// the statement after it.
+    /// What has to be ended before a stop, which may be passed over or change the tool beside a move, and on the target is
+    /// sure to be one or not; `number` is that of the statement after it.
     fn stop(
         &mut self,
-        (pause, optional, moves): (Pause, bool, bool),
+        (pause, optional, moves, is_one): (Pause, bool, bool, bool),
         number: usize,
         span: Span,
         context: &mut Context<'_>,
@@ -318,9 +343,9 @@ impl Place<'_> {
                 context.rests_on_source(self.index, span, here.question);
             }
             let (_, op) = ends(running);
-            if here.answer == Some(true) && !(there.known && there.answer == Some(true)) {
+            if here.answer == Some(true) && !(there.known && there.answer == Some(true) && is_one) {
                 let runs = self.state.op(ends(running).0).is_some_and(|op| starts(running).contains(&op));
-                let to_machine = moves || !runs || there.answer.is_some();
+                let to_machine = moves || !runs || there.answer.is_some() && is_one;
                 let left = optional || (pause == Pause::Change && to_machine);
                 if !left {
                     if running == Running::Spindle
