@@ -98,10 +98,10 @@ fn told(registers: &[&(String, u32)], kept: bool) -> String {
         if one { ("keeps its value", "is", "it") } else { ("keep their values", "are", "them") };
     match kept {
         true => format!(
-            "{names} {keeps} over power-off on the source, not on the target, and the program reads what an earlier run left in {them}"
+            "{names} {keeps} over power-off on the source, not on the target, and the program may read what an earlier run left in {them}"
         ),
         false => format!(
-            "{names} {is} vacant after power-on on the source and {keeps} on the target, and the program reads what an earlier run left in {them}"
+            "{names} {is} vacant after power-on on the source and {keeps} on the target, and the program may read what an earlier run left in {them}"
         ),
     }
 }

@@ -110,7 +110,7 @@ impl<'a> Lowering<'a> {
             return Expr::Number(number);
         }
         if open && counts != BareLength::Unknown {
-            let note = "the sources say it of lengths without a decimal point, not of feeds";
+            let note = "what a feed without a decimal point counts: the sources say it of lengths alone";
             self.findings.unconfirmed(BARE_FEED.into(), Some(note), span);
         } else {
             self.rest_on_numbers(span);
