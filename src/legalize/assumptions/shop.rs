@@ -11,6 +11,7 @@ use crate::dialect::{Control, Machine, Question, Side};
 use crate::ir::analysis::modal::Ways;
 use crate::ir::{Module, Nc};
 use crate::legalize::features::Features;
+use crate::legalize::moves::mains::facts_from_reset;
 use crate::legalize::moves::rotary_places::{AXES, Places, RotaryPlaces, TURN, Way, degrees};
 use crate::legalize::{Context, Modal, Setting};
 use crate::text::Span;
@@ -32,7 +33,7 @@ pub(in crate::legalize) fn are_mills(context: &Context<'_>) -> bool {
 
 /// Says what programs rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let facts = context.modal_facts(module);
+    let facts = facts_from_reset(module, context);
     facts.each(module, &mut |index, stmt, before, _| {
         let Some(nc) = stmt.kind.nc() else { return };
         if names_length(nc) && moves_by_code(nc, before) {

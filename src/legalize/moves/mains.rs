@@ -1,10 +1,13 @@
 //! Programs that are run by themselves, and their heads.
 
+use crate::canon::{Group, Op};
+use crate::ir::analysis::ModalFacts;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::upward_exposed::roots;
 use crate::ir::{BlockId, Class, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind};
-use crate::legalize::reachable;
+use crate::legalize::{Context, Modal, reachable};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// The programs that end the run, but for those that others call and that may return to them. What only their
 /// subroutines do, or what nothing reaches, says nothing of them.
@@ -32,6 +35,23 @@ pub(super) fn leaves_by(program: &Program, ends: impl Fn(&TermKind) -> bool) -> 
 /// The programs that no call runs, by name or surely by a computed number.
 pub(super) fn uncalled(module: &Module, called: &CalledPrograms) -> Vec<usize> {
     roots(module).into_iter().filter(|root| !called.is_known(*root)).collect()
+}
+
+/// What is in force at every block where runs begin in what the source's machine begins in: G40, G49 and G80, and the codes
+/// of its profile under `[start]`. Where a program may have callers that are not in the library, nothing of that is known.
+pub(in crate::legalize) fn facts_from_reset(module: &Module, context: &Context<'_>) -> Arc<ModalFacts> {
+    let called = context.called(module);
+    let is_start = context.entry == Modal::unknown();
+    if !is_start || uncalled(module, &called).into_iter().any(|root| returns(&module.programs[root])) {
+        return context.modal_facts(module);
+    }
+    let mut entry = context.entry.clone();
+    [Op::RadiusOff, Op::LengthOff, Op::CycleOff].into_iter().for_each(|op| entry.start_in(op));
+    let begun = context.source.start().iter().map(|mode| mode.op);
+    begun
+        .filter(|op| matches!(op.group(), Group::Distance | Group::Motion))
+        .for_each(|op| entry.start_in(op));
+    context.modal_facts_from(module, &entry)
 }
 
 /// Puts codes at the head of a program, after its comments.

@@ -10,7 +10,7 @@ pub(in crate::legalize) mod joined;
 pub(in crate::legalize) mod long_arcs;
 pub(in crate::legalize) mod machine_feeds;
 pub(in crate::legalize) mod machine_moves;
-mod mains;
+pub(in crate::legalize) mod mains;
 pub(in crate::legalize) mod mixed_places;
 pub(in crate::legalize) mod polar;
 pub(in crate::legalize) mod polar_mode;

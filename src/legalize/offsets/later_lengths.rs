@@ -11,6 +11,7 @@ use crate::dialect::{Control, Question};
 use crate::ir::{Bank, Block, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::assumptions::shop::{are_mills, moves_by_code, names_length};
 use crate::legalize::features::Features;
+use crate::legalize::moves::mains::facts_from_reset;
 use crate::legalize::{Context, Modal};
 
 /// True if the library names tool lengths, and their codes move the axis on the target alone.
@@ -25,7 +26,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 
 /// Puts the codes beside the moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let facts = context.modal_facts(module);
+    let facts = facts_from_reset(module, context);
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (id, block) in program.ids().zip(&mut program.blocks) {
@@ -97,7 +98,7 @@ fn is_of_length(item: &NcItem) -> bool {
 }
 
 /// True for a block whose code of the length may go to a later one.
-fn goes(nc: &Nc, after: &Modal) -> bool {
+pub(super) fn goes(nc: &Nc, after: &Modal) -> bool {
     nc.word(Role::LengthOffset).is_none_or(|row| !reads_state(row))
         && is_plain(nc.items.iter().filter(|item| !is_of_length(item)), after)
 }
@@ -128,7 +129,7 @@ fn takes_end(nc: &Nc, after: &Modal) -> bool {
 }
 
 /// True for a statement that is the same whichever length is in force.
-fn is_quiet(stmt: &Stmt, after: &Modal) -> bool {
+pub(super) fn is_quiet(stmt: &Stmt, after: &Modal) -> bool {
     match &stmt.kind {
         StmtKind::Comment => true,
         StmtKind::Nc(nc) => is_plain(nc.items.iter(), after),
@@ -153,7 +154,7 @@ fn is_plain<'n>(mut items: impl Iterator<Item = &'n NcItem>, after: &Modal) -> b
 }
 
 /// True where words of axes are moves, each along its own axis.
-fn stands(after: &Modal) -> bool {
+pub(super) fn stands(after: &Modal) -> bool {
     let off = |group, op| after.op(group).is_none_or(|there| there == op);
     !after.may_call()
         && after.op(Group::Cycle) == Some(Op::CycleOff)
@@ -173,7 +174,7 @@ fn keeps(op: Op) -> bool {
 }
 
 /// True where the machine's state is read, as a position: it may hold the length.
-fn reads_state(value: &Expr) -> bool {
+pub(super) fn reads_state(value: &Expr) -> bool {
     let mut found = false;
     value.walk(&mut |e| {
         found |= matches!(e, Expr::System(..) | Expr::Indirect(Bank::Numbered, _));

@@ -13,7 +13,7 @@ use crate::legalize::moves::{
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
-    radius_words, set_position, table_writes, tool_lengths, written_tools,
+    named_lengths, radius_words, set_position, table_writes, tool_lengths, written_tools,
 };
 
 /// Before the tool lengths are asked about.
@@ -23,6 +23,14 @@ pub(super) const LATER_LENGTHS: Pass = Pass::edits(
     later_lengths::run,
 )
 .when(later_lengths::concerns);
+
+/// Where the source moves by them.
+pub(super) const NAMED_LENGTHS: Pass = Pass::edits(
+    "named-lengths",
+    "lengths whose codes move Z on the source alone name the place where Z goes",
+    named_lengths::run,
+)
+.when(named_lengths::concerns);
 
 pub(super) const MOVES: &[Pass] = &[
     Pass::reports("barred", "refuses what settings of the machines give another meaning", barred::run)

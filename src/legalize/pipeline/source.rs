@@ -2,7 +2,7 @@
 
 use super::Pass;
 use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
-use super::moves::LATER_LENGTHS;
+use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::legalize::assumptions::{changes, facts, runtime, shop};
 use crate::legalize::cycles::{
     cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, stored_places,
@@ -60,6 +60,7 @@ pub(super) const SOURCE: &[Pass] = &[
     Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
         .when(first_increments::concerns),
     LATER_LENGTHS,
+    NAMED_LENGTHS,
     Pass::reports("shop-facts", "reports what parameters of the machines decide", shop::run)
         .when(shop::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)

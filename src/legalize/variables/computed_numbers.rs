@@ -177,7 +177,11 @@ pub fn report(_: &Module, context: &mut Context<'_>) {
         let span = found.places.first().copied().unwrap_or_default();
         let told = Diagnostic::new(*code, span, what.clone()).assuming(found.predicate(safe));
         // `#[2000+#1]` is a row of a table: how many rows both machines have is one question for all programs.
-        let is_row = matches!(found.finding, Finding::Shifted(..) | Finding::Counted(..));
+        let is_row = match found.finding {
+            Finding::Shifted(..) | Finding::Counted(..) => true,
+            Finding::Alike(first, last) => !hit && is_table(context.source, first, last),
+            _ => false,
+        };
         context.add_once(index, what, if is_row { told.asked_once() } else { told });
     }
 }
@@ -295,6 +299,16 @@ impl Finding {
             ),
         }
     }
+}
+
+/// True where all these numbers are the system's, and the first is a row of a table that is counted.
+fn is_table(source: &Control, first: u32, last: u32) -> bool {
+    let counted = |number: u32| {
+        source.numbered_state(number).is_some_and(|(.., row)| {
+            matches!(row.subscripts.as_slice(), [one] if one.step == 1 && !one.axis && one.count > 1)
+        })
+    };
+    counted(first) && counted(last) && (first..=last).all(|number| source.numbered_class(number).is_none())
 }
 
 fn must_stay(source: &Control, first: u32, last: u32) -> String {
