@@ -89,7 +89,11 @@ impl Overlay {
                 let code = fact.trim_start_matches("code:");
                 let help = format!("leave it out, or say under [[site]] what {code} does on this machine");
                 self.fault(&format!("confirm:{fact}"), format!("{} has no code {code}", dialect.title), help);
-            } else if found == 0 && matters::meaning(&fact).is_none() && !is_without_row(&fact) {
+            } else if found == 0
+                && matters::meaning(&fact).is_none()
+                && !is_without_row(&fact)
+                && !self.holds_elsewhere(&fact)
+            {
                 let mut names = Vec::new();
                 each_row(dialect, &mut |name, _| names.push(name.to_string()));
                 names.extend(matters::ALL.iter().map(|(name, _)| (*name).to_owned()));
@@ -124,6 +128,16 @@ impl Overlay {
         };
         let table = registry::find(&self.profile.dialect).and_then(|entry| entry.dialect().ok());
         table.is_some_and(|table| !table.codes.iter().any(|row| row.code.split(' ').next() == Some(code)))
+    }
+
+    /// True for a fact of the control's table that holds under another setting or option than this machine has.
+    fn holds_elsewhere(&self, fact: &str) -> bool {
+        let Some(table) = registry::find(&self.profile.dialect).and_then(|entry| entry.dialect().ok()) else {
+            return false;
+        };
+        let mut found = false;
+        each_row(&mut table.clone(), &mut |name, _| found |= name == fact);
+        found
     }
 }
 

@@ -6,6 +6,7 @@
 mod answered;
 mod beside;
 mod codes;
+mod digits;
 mod filled;
 mod json;
 mod keys;
@@ -102,6 +103,8 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let mut start = start::asked(&places, source, &library.module);
     let start_of_target = target
         .map_or_else(Vec::new, |target| start::asked_of_target(&places, (source, target), &library.module));
+    let digits =
+        target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),
@@ -116,7 +119,8 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         start = start::asked_by_others(&places, inputs, source);
     }
     let controls = [source, target.unwrap_or(source)];
-    let settings = keys::asked(&places, controls, &conversion.programs);
+    let mut settings = keys::asked(&places, controls, &conversion.programs);
+    settings.extend(digits);
     let words = words::asked(&places, &conversion.programs);
     for program in &mut conversion.programs {
         let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);

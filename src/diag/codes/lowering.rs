@@ -144,6 +144,11 @@ Write the system into the machine profile: 'gcode_system' under [settings]. The 
 "A lathe with two turrets or two spindles may run two programs at once, which wait for each other at M codes with P. What each does depends on where the other one is, and macroglot converts programs that run alone. The message names the block that shows the second path; nothing else is said of the program.
 
 Convert what one path does alone, as a program of its own, without the blocks that wait. If the code means something else on this machine, say so in the machine profile: [[site]]."
+
+    "0358" NeverRun Note "a block that cannot be read is never run"
+"The block stands after the end of the program, or after a jump, and no sequence number stands between. So no run comes to it, and the program does the same without it. The conversion leaves it out.
+
+Correct the block or take it out, if it is meant to be run."
         }
     };
 }

@@ -56,6 +56,8 @@ pub struct Lowering<'a> {
     pub lookahead_limited: bool,
     /// True while feeds count inverse time, as the text has it.
     pub inverse: bool,
+    /// True after what ended the run, or left by a jump, where no block since can be jumped to.
+    pub is_over: bool,
 }
 
 /// A loop that has begun.
@@ -130,6 +132,7 @@ impl<'a> Lowering<'a> {
             signed: false,
             lookahead_limited: false,
             inverse: false,
+            is_over: false,
         }
     }
 

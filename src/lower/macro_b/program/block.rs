@@ -12,6 +12,17 @@ use smallvec::SmallVec;
 
 const LONG_NUMBERS: &str = "if its numbers have eight digits, which is an option, write program_digits = \"8\" under [settings] of its profile";
 
+const NEVER_RUN: &str = "this block cannot be read, and no run comes to it: it is left out";
+
+/// True for a block that nothing can name: beside its comments its text has no letter of a number, of a program or of a loop.
+fn is_unnamed(text: &[u8]) -> bool {
+    let mut in_comment = false;
+    !text.iter().any(|byte| {
+        in_comment = if in_comment { *byte != b')' } else { *byte == b'(' };
+        !in_comment && matches!(byte.to_ascii_uppercase(), b'N' | b'O' | b':' | b'D' | b'%' | b'<')
+    })
+}
+
 /// What stands on a block, besides words and comments.
 #[derive(Default)]
 struct Contents {
@@ -69,7 +80,16 @@ impl<'a> Lowering<'a> {
                 line += 1;
             }
             self.at = at;
-            self.block(block, piece.head == Some(at));
+            let is_dead = self.is_over && is_unnamed(block.span.of(self.source));
+            let refused = block.errors.iter().any(|error| error.code.severity() == Severity::Error);
+            if is_dead && refused {
+                self.findings.add(Diagnostic::new(Code::NeverRun, block.span, NEVER_RUN));
+                self.builder.push(StmtKind::Comment, SourceInfo::default());
+            } else {
+                self.block(block, piece.head == Some(at));
+            }
+            let says_nothing = refused || !block.items.iter().any(acts);
+            self.is_over = !self.builder.is_open() || is_dead && says_nothing;
         }
         self.close_loops();
         self.close_hub();
