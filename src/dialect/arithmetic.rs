@@ -1,6 +1,6 @@
 //! With how many digits a machine calculates, where a setting says it.
 
-use super::Control;
+use super::{Control, Plain};
 
 /// The columns of numbers that a setting may change, and what the longer arithmetic is called there.
 const COLUMN: &str = "numbers:arithmetic";
@@ -14,15 +14,12 @@ impl Control {
         Some(format!("{key} = \"{value}\" under [{section}]"))
     }
 
-    /// True if the machine's profile says so itself, or if it says nothing and the table does.
+    /// True if the machine's profile says so itself.
     pub fn is_said_double(&self) -> bool {
         let Some((section, key, value)) = self.double_setting() else { return false };
         let profile = self.profile();
         let stated = if section == "parameters" { &profile.parameters } else { &profile.settings };
-        match stated.get(key) {
-            Some(said) => said.to_string() == value,
-            None => self.dialect().numbers.arithmetic == DOUBLE,
-        }
+        stated.get(key).map(Plain::to_string).as_deref() == Some(value)
     }
 
     /// The section, the key and the value of the setting.
@@ -50,7 +47,7 @@ mod tests {
             ("dialect = \"haas\"", false),
             ("dialect = \"haas\"\n[settings]\narithmetic = \"single\"", false),
             ("dialect = \"haas\"\n[settings]\narithmetic = \"double\"", true),
-            ("dialect = \"fanuc\"", true),
+            ("dialect = \"fanuc\"", false),
             ("dialect = \"fanuc\"\n[parameters]\n6008.0 = \"0\"", true),
             ("dialect = \"fanuc\"\n[parameters]\n6008.0 = \"1\"", false),
             ("dialect = \"fadal\"", false),

@@ -365,3 +365,32 @@ fn words_beside_codes_of_the_spindle_are_asked_once() {
     assert!(run.out.contains(" 0 refused"), "{}{}", run.out, run.err);
     assert!(shop.read("out/a.nc").contains("M513 P2\n"), "{}", shop.read("out/a.nc"));
 }
+
+#[test]
+fn how_a_haas_calculates_is_asked_if_fractions_are_compared() {
+    let counts = "O1000\nG21 G90 G54 G17 G40 G80 G94 G0\n#1=0\nWHILE[#1LT5]DO1\n#1=#1+1\nEND1\nM30\n";
+    let steps = "O1001\nG21 G90 G54 G17 G40 G80 G94 G0\n#1=0\nWHILE[#1LT5]DO1\n#1=#1+#2\nEND1\nM30\n";
+    let asks = |text: &str, shop: Shop| {
+        let run = shop.run("survey lib --from haas --to fanuc");
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert_eq!(run.out.contains("arithmetic = \"single\" or \"double\""), text == steps, "{}", run.out);
+    };
+    for text in [counts, steps] {
+        asks(text, Shop::with(&[("lib/o1000.nc", text)]));
+    }
+    // Once it is said, it is not asked again.
+    let said = "dialect = \"haas\"\n[settings]\narithmetic = \"double\"\n";
+    let shop = Shop::with(&[("lib/o1001.nc", steps), ("h.toml", said)]);
+    let run = shop.run("survey lib --machine h.toml --to fanuc");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(!run.out.contains("arithmetic"), "{}", run.out);
+}
+
+/// The offset numbers of G10 are in the table of each kind of memory but one.
+#[test]
+fn a_fact_of_another_setting_may_be_confirmed() {
+    let said = "dialect = \"fanuc\"\nconfirm = [\"code:G10 L12\"]\n[settings]\noffset_memory = \"A\"\n";
+    let shop = Shop::with(&[("lib/o1000.nc", "O1000\nG21 G90 G54\nM30\n"), ("f.toml", said)]);
+    let run = shop.run("survey lib --machine f.toml --to haas");
+    assert_eq!(run.code, 0, "{}", run.err);
+}
