@@ -24,6 +24,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:jump.into.loop", "a jump into a loop goes on inside it"),
     ("machine:lathe.allowance.into.part", "an allowance that points into the part is taken with its sign"),
     ("machine:lathe.code.moves.nothing", "a code of a lathe that only this control has moves nothing"),
+    (
+        "machine:lathe.contour.modes",
+        "modes of the speed and the feed in a contour count where it is finished, and do nothing while it is roughed",
+    ),
     ("machine:lathe.contour.moves", "the cycles of contours move as docs/lathe.md says"),
     (
         "machine:lathe.contour.returns",

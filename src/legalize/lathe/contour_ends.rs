@@ -142,7 +142,10 @@ fn end_of(program: &Program, readers: &[&Reader]) -> Option<End> {
         return None;
     };
     let plain = |stmt: &Stmt| stmt.site.skip.is_none() && stmt.kind.nc().is_some_and(is_plain);
+    let motions = contour.iter().filter_map(|(_, stmt)| stmt.kind.nc()).flat_map(Nc::ops);
+    let motion = motions.filter(|op| op.group() == Group::Motion).last();
     if !contour.iter().all(|(_, stmt)| plain(stmt))
+        || !matches!(motion, Some(Op::Rapid | Op::Linear))
         || !ends_plainly(end.kind.nc()?)
         || !is_move(before.kind.nc()?)
     {
@@ -207,10 +210,9 @@ fn is_plain(nc: &Nc) -> bool {
     })
 }
 
-/// True for a straight move.
+/// True for a move with no code but that of a straight one.
 fn ends_plainly(nc: &Nc) -> bool {
     is_move(nc)
-        && nc.ops().any(|op| matches!(op, Op::Rapid | Op::Linear))
         && nc.items.iter().all(|item| match item {
             NcItem::Op(op) => matches!(op, Op::Rapid | Op::Linear | Op::RadiusOff),
             NcItem::Word(role, _) => matches!(role, Role::X | Role::Z | Role::Feed),

@@ -16,8 +16,8 @@ use crate::text::Span;
 /// True where such a cycle stands, and the controls know the type otherwise, or a setting that nobody stated says how.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let sides = [context.source, context.target];
-    features.op(Op::RoughTurning)
-        && (by_word(context.source) != by_word(context.target) || sides.into_iter().any(hangs_on_setting))
+    let told = by_word(context.source) != by_word(context.target) || features.role(Role::ContourType);
+    features.op(Op::RoughTurning) && (told || sides.into_iter().any(hangs_on_setting))
 }
 
 /// Writes the type as the target reads it.
@@ -41,7 +41,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     }
                 }
             }
-            if by_word == theirs {
+            if by_word && theirs {
                 continue;
             }
             let named = program.blocks.get(at).and_then(|block| block.stmts.get(place)).and_then(|stmt| {
@@ -50,6 +50,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             });
             let stmt = program.blocks.get_mut(at).and_then(|block| block.stmts.get_mut(place));
             let Some(StmtKind::Nc(nc)) = stmt.map(|stmt| &mut stmt.kind) else { continue };
+            // The first block says it on both, and the word nothing else.
+            if !by_word && !theirs {
+                let word = nc.word(Role::ContourType).map(|value| value.constant() == Some(1.0));
+                if word.is_none_or(|word| Some(word) == named) {
+                    nc.items.retain(|item| !matches!(item, NcItem::Word(Role::ContourType, _)));
+                } else {
+                    let told = Diagnostic::new(Code::NoEquivalent, span, IDLE).with_help(IDLE_HELP);
+                    context.add(index, told);
+                }
+                continue;
+            }
             nc.items.retain(|item| !matches!(item, NcItem::Word(Role::ContourType, _)));
             let told = match (valleys, named) {
                 (Some(true), _) if theirs => {
@@ -102,6 +113,9 @@ const NAMES_ONE_HELP: &str =
 const NAMES_BOTH: &str = "the first block of this contour names X and Z, by which the target takes it for one with valleys, and the source does \
                           not, as the word R of the cycle is missing";
 const NAMES_BOTH_HELP: &str = "give the move along Z a block of its own before the cycle, or R of 1 into the cycle if the contour has valleys";
+const IDLE: &str = "R of this cycle and the first block of its contour say otherwise of valleys, and no source says what R does where the first block decides";
+const IDLE_HELP: &str =
+    "take R out; or write X and Z into the first block of the contour, Z as the place where the cycle begins";
 const UNKNOWN: &str = "whether this contour has valleys is not known here, and the target is told otherwise";
 const UNKNOWN_HELP: &str =
     "write R of the cycle as a number, and the first block of the contour in the same program";

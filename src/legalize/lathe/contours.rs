@@ -59,8 +59,16 @@ fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
         let value = nc.word(role).and_then(|value| value.constant());
         value.filter(|value| *value > 0.0).map(|value| value as u32)
     };
-    let (Some(first), Some(last)) = (number(Role::ContourFirst), number(Role::ContourLast)) else {
-        return Err("the cycle does not say as numbers with which block its contour begins and ends".into());
+    let (first, last) = match (number(Role::ContourFirst), number(Role::ContourLast)) {
+        (Some(first), Some(last)) => (first, last),
+        (Some(_), None) if nc.word(Role::ContourLast).is_none() => {
+            return Err("the cycle has no Q, the number of the last block of its contour".into());
+        }
+        _ => {
+            return Err(
+                "the cycle does not say as numbers with which block its contour begins and ends".into()
+            );
+        }
     };
     if let Some(number) = [first, last].into_iter().find(|number| *number > most) {
         return Err(format!(
@@ -71,6 +79,11 @@ fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
     let to = find(program, last)?;
     if from > to {
         return Err(format!("N{last}, the end of the contour, stands before N{first}, its beginning"));
+    }
+    if from == to {
+        return Err(format!(
+            "P and Q both name N{first}: no source says what the cycle does with a contour of one block"
+        ));
     }
     let begins = program.blocks.get(from.0).and_then(|block| block.stmts.get(from.1));
     let moves = |nc: &Nc| nc.has(Op::Rapid) || nc.has(Op::Linear);

@@ -113,7 +113,12 @@ pub fn fault(nc: &Nc, before: Option<&Nc>) -> Option<&'static str> {
         });
     }
     if before.is_some() && !nc.names_axis() && !angle {
-        return Some("the block after a corner does not move: the source stops at an alarm");
+        return Some(match nc.has(Op::Dwell) {
+            true => {
+                "a wait between a corner and the next block: no source says before which part of the corner it comes"
+            }
+            false => "the block after a corner does not move: the source stops at an alarm",
+        });
     }
     let comp = nc.ops().any(|op| op.group() == Group::RadiusComp);
     if comp && nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if is_corner(*role))) {

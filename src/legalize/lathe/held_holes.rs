@@ -28,6 +28,9 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let [Some(clamps), Some(frees)] = context.source.hole_clamp() else { return false };
     let chooses = context.source.code_for(Op::ReturnInitial, &BTreeMap::new()).is_some();
+    // Nothing of the library changes what the machine begins in.
+    let begins = context.source.start().iter().any(|mode| mode.op == Op::ReturnInitial);
+    let stays = begins && !context.features.op(Op::ReturnR);
     let facts = context.modal_facts(module);
     let (mut written, mut lost, mut open) = (Vec::new(), Vec::new(), Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
@@ -57,7 +60,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 }
                 let acts = held.then_some([clamps, frees]);
                 // A control without codes for it always goes back to where the cycle began.
-                let goes_back = !chooses || state.op(Group::ReturnPlane) == Some(Op::ReturnInitial);
+                let returns = state.op(Group::ReturnPlane);
+                let goes_back = !chooses || returns == Some(Op::ReturnInitial) || returns.is_none() && stays;
                 match cycle
                     .written(nc, (acts, goes_back), (&before, &state))
                     .filter(|_| stmt.site.skip.is_none())

@@ -1,9 +1,10 @@
 //! Where the holes of a lathe end: at the level where the cycle began, or at the retract plane, by G98 and G99 on some controls alone.
 //!
 //! Law: a cycle that begins at its retract plane ends there. So where the target always goes back to where the cycle began, the tool goes to
-//! the place and to the plane before the cycle, in rapid, as the cycle does it. Where the source always goes back, the target is told so.
+//! the place and to the plane before the cycle, in rapid, as the cycle does it; the last hole of such a cycle may go back by a move of its own.
+//! Where the source always goes back, the target is told so.
 //! Side conditions: which of the two is in force is known, and the same for all holes of a cycle; rapid is in force before it; no repeats.
-//! Counter-example: `G99 G83 ..` and `G98` before its last hole.
+//! Counter-example: `G99 G83 ..` and `G98` before a hole that is not its last one.
 
 use super::holes::drills;
 use super::straight::entered_straight;
@@ -37,12 +38,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         let straight = entered_straight(program);
         // Whether the cycle in force began at its plane on the target.
         let mut lowered = None;
+        // The way back up from the plane of such a cycle, and none of another one.
+        let mut back: Option<Option<Nc>> = None;
         let mut returns = Vec::new();
         for ((id, block), straight) in program.ids().zip(&mut program.blocks).zip(straight) {
             let mut state = facts.at(index, id);
             lowered = lowered.filter(|_| straight);
             let mut out = Stmts::with_capacity(block.stmts.len());
-            for mut stmt in std::mem::take(&mut block.stmts) {
+            let mut rest = std::mem::take(&mut block.stmts).into_iter();
+            while let Some(mut stmt) = rest.next() {
                 let before = (state.op(Group::Cycle), state.op(Group::Motion));
                 state.step(&stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else {
@@ -56,6 +60,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     if drills(nc, &state).is_some() {
                         let goes_on = before.0 != Some(Op::CycleOff);
                         let hole = Hole { before, lowered, skipped: stmt.site.skip.is_some() };
+                        if goes_on
+                            && let Some(back) = back.clone().filter(|_| hole.rises(nc, &state))
+                            && is_last(rest.as_slice(), &state)
+                        {
+                            let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
+                            out.push(stmt);
+                            out.extend(back.map(|back| Stmt { kind: StmtKind::Nc(back), site }));
+                            continue;
+                        }
+                        if !goes_on {
+                            back = way_back(nc);
+                        }
                         match hole.end(nc, &state) {
                             Ok((stmts, now)) => {
                                 let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
@@ -113,6 +129,13 @@ struct Hole {
 type End = (Vec<Nc>, Option<bool>);
 
 impl Hole {
+    /// True of a hole that ends where its cycle began on the source, and at the plane on the target, as the holes before it.
+    fn rises(&self, nc: &Nc, state: &Modal) -> bool {
+        let plain = nc.word(Role::CycleRStep).or(nc.word(Role::Repeat)).is_none() && !self.skipped;
+        let back = state.op(Group::ReturnPlane) == Some(Op::ReturnInitial);
+        self.lowered == Some(true) && back && plain && state.op(Group::Motion) == Some(Op::Rapid)
+    }
+
     fn end(&self, nc: &mut Nc, state: &Modal) -> Result<End, &'static str> {
         let at_plane = match state.op(Group::ReturnPlane) {
             Some(Op::ReturnR) => true,
@@ -139,6 +162,30 @@ impl Hole {
         let side = nc.ops().any(Op::is_side_hole);
         Ok((lead(nc, side, r), Some(true)))
     }
+}
+
+/// True where the cycle in force drills nothing more: it ends in these statements before another hole.
+fn is_last(rest: &[Stmt], state: &Modal) -> bool {
+    let mut state = state.clone();
+    for stmt in rest {
+        state.step(stmt);
+        match &stmt.kind {
+            StmtKind::Nc(nc) if drills(nc, &state).is_some() => return false,
+            StmtKind::Nc(_) if state.op(Group::Cycle) == Some(Op::CycleOff) => return true,
+            StmtKind::Nc(_) | StmtKind::Comment | StmtKind::Assign { .. } => {}
+            _ => return false,
+        }
+    }
+    false
+}
+
+/// The move from the plane of a cycle to where it began: none inside if both are one place, and none at all if that is not known.
+fn way_back(nc: &Nc) -> Option<Option<Nc>> {
+    let r = nc.word(Role::CycleRStep).map_or(Some(0.0), Expr::constant)?;
+    let side = nc.ops().any(Op::is_side_hole);
+    let (role, by) = if side { (Role::StepX, -2.0 * r) } else { (Role::StepZ, -r) };
+    let items = || vec![NcItem::Op(Op::Rapid), NcItem::Word(role, Expr::Number(by))];
+    Some((by != 0.0).then(|| Nc { items: items() }))
 }
 
 /// The moves to the place of a hole, and to its plane; the cycle then begins there.

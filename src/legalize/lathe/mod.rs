@@ -2,6 +2,7 @@
 
 pub mod bare_starts;
 pub mod contour_ends;
+mod contour_modes;
 mod contour_starts;
 pub mod contour_types;
 pub mod contours;
@@ -22,6 +23,7 @@ pub mod lone_passes;
 pub mod modes;
 pub mod other_kind;
 pub mod place;
+mod places;
 mod restarts;
 pub mod roughing;
 pub mod run_outs;

@@ -7,7 +7,7 @@ use crate::canon::{Group, Op, Role};
 use crate::ir::{Expr, Nc, NcItem, Place as Target, Stmt, StmtKind};
 
 /// What is known of it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Place {
     at: At,
     /// Whether a pass is in force, which each block with axis words runs; none where that is not known.
@@ -26,7 +26,7 @@ pub struct Place {
     inside: Option<(u32, At, Option<bool>)>,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct At {
     x: Option<f64>,
     z: Option<f64>,
@@ -41,6 +41,26 @@ impl Place {
     /// What is known where other ways come in.
     pub fn forget(&mut self) {
         *self = Self { keeps_level: self.keeps_level, shifted: self.shifted, ..Self::default() };
+    }
+
+    /// What is known where two ways meet: what they agree in.
+    pub fn met(mut self, other: &Self) -> Self {
+        if self.steps != other.steps || self.inside != other.inside {
+            self.shifted |= other.shifted;
+            self.forget();
+            return self;
+        }
+        // What words do is not known where a cycle may be in force or not.
+        let alike = self.hole == other.hole && self.passes == other.passes;
+        let agreed = |one: Option<f64>, other: Option<f64>| one.filter(|one| Some(*one) == other);
+        Self {
+            at: At { x: agreed(self.at.x, other.at.x), z: agreed(self.at.z, other.at.z) },
+            passes: self.passes.filter(|_| alike),
+            hole: self.hole.filter(|_| alike),
+            shifted: self.shifted || other.shifted,
+            read: self.read.filter(|_| self.read == other.read),
+            ..self
+        }
     }
 
     /// True while a drilling cycle is in force, as far as the blocks before say.

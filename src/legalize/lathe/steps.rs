@@ -4,6 +4,7 @@
 //! letters become a mode, a block has words of one kind only, or where the tool stands is known as numbers. Counter-example: `G1 X50. W-2.`
 //! after a call, which no mode can say.
 
+use super::contour_modes::{Modes, reached};
 use super::contour_starts::Contours;
 use super::place::Place;
 use super::restarts::restarts;
@@ -14,9 +15,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, STEP_LETTERS};
 use crate::ir::analysis::calls_of;
 use crate::ir::analysis::over_calls::called;
-use crate::ir::{
-    BinOp, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind,
-};
+use crate::ir::{BinOp, Call, Callee, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
@@ -65,8 +64,10 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut found = contours_elsewhere(module, &facts);
     let ends_in_mode = has_mode(context.target);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        for (at, block) in program.blocks.iter_mut().enumerate() {
-            let mut modal = facts.at(index, BlockId(at as u32));
+        let modes = Modes::of(program, index, &facts);
+        for at in 0..program.blocks.len() {
+            let mut modal = modes.at(at);
+            let Some(block) = program.blocks.get_mut(at) else { continue };
             for stmt in &mut block.stmts {
                 modal.step(stmt);
                 let span = stmt.site.span;
@@ -117,8 +118,9 @@ fn contours_elsewhere(module: &Module, facts: &ModalFacts) -> Vec<(usize, Span, 
     let mut found = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         let (mut begun, mut read) = (BTreeMap::new(), Vec::new());
+        let modes = Modes::of(program, index, facts);
         for (at, block) in program.blocks.iter().enumerate() {
-            let mut modal = facts.at(index, BlockId(at as u32));
+            let mut modal = modes.at(at);
             for stmt in &block.stmts {
                 let before = modal.op(Group::Distance);
                 modal.step(stmt);
@@ -316,15 +318,6 @@ fn enter(place: &mut Place, stmt: &Stmt, start: Option<[Option<f64>; 2]>, read: 
         Some([x, z]) => place.agrees(x, z),
         None => {}
     }
-}
-
-/// For each block, whether any way of the program leads to it.
-fn reached(program: &Program) -> Vec<bool> {
-    let mut found = vec![false; program.blocks.len()];
-    for to in program.blocks.iter().flat_map(|block| block.term.kind.successors()).chain([BlockId(0)]) {
-        found.get_mut(to.index()).into_iter().for_each(|found| *found = true);
-    }
-    found
 }
 
 fn has_steps(nc: &Nc) -> bool {

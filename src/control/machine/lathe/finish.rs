@@ -19,8 +19,9 @@ pub fn pattern(
     let unit = machine.unit();
     let length = |role| command.word(role).map(|value| value * unit);
     let told = if machine.rules.turning.two_blocks { machine.lathe.pattern } else { Repeat::default() };
-    let stock = [told.x.or(length(Role::PatternX)), told.z.or(length(Role::PatternZ))];
-    let passes = told.passes.or(command.word(Role::Passes));
+    let [x, z, count] = machine.rules.turning.pattern;
+    let stock = [told.x.or(length(Role::PatternX)).or(x), told.z.or(length(Role::PatternZ)).or(z)];
+    let passes = told.passes.or(command.word(Role::Passes)).or(count);
     let passes =
         passes.ok_or_else(|| Stop::unnamed("a repeated contour without the number of its passes"))?;
     if passes <= 0.0 {

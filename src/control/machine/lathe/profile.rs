@@ -67,11 +67,11 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     use Op::{ArcCcw, ArcCw, Dwell, Linear, OptionalStop, Rapid, Stop as Halt};
     let number = if op == Op::Finish { "PS0325" } else { "PS0066" };
     for found in &command.ops {
-        let comp = found.group() == Group::RadiusComp;
+        let mode = matches!(found.group(), Group::RadiusComp | Group::SpeedMode | Group::FeedMode);
         let own = matches!(found.auxiliary(), Some(kind) if kind != Auxiliary::Change);
         let m = matches!(found, Op::MachineSpecific | Op::Builder | Op::Act | Halt | OptionalStop);
         let fine = matches!(found, Rapid | Linear | ArcCw | ArcCcw | Dwell | Op::TurretIndex);
-        if !(comp || own || m || fine) {
+        if !(mode || own || m || fine) {
             return Err(alarm(
                 number,
                 &format!("'{}' between the blocks of a contour", said(found.meaning())),
@@ -79,6 +79,9 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         }
         if op != Op::Finish && matches!(found, Op::RadiusLeft | Op::RadiusRight) {
             trace.doubt("machine:lathe.nose.roughing");
+        }
+        if matches!(found.group(), Group::SpeedMode | Group::FeedMode) {
+            trace.doubt("machine:lathe.contour.modes");
         }
     }
     match command.words.iter().find(|(role, _)| !may_stand(*role)) {

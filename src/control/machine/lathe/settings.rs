@@ -31,6 +31,8 @@ pub struct Turning {
     pub retract: Option<f64>,
     /// Whether roughing leaves out its pass along a contour: of one without valleys, and of one with them (K9).
     pub skips_along: [bool; 2],
+    /// How far off the first pass of a repeated contour lies, and how many passes there are.
+    pub pattern: [Option<f64>; 3],
     /// Retract of pecks.
     pub peck_retract: Option<f64>,
     /// The least depth, the finishing allowance, the run-out in leads and its angle, of threads.
@@ -99,6 +101,11 @@ impl Turning {
             depth: length(Role::CutDepth, &rough),
             retract: length(Role::CutRetract, &rough),
             skips_along: [false, true].map(|valleys| control.skips_along(valleys).is_some()),
+            pattern: [
+                length(Role::PatternX, &[Op::Pattern]),
+                length(Role::PatternZ, &[Op::Pattern]),
+                given(Role::Passes, &[Op::Pattern]),
+            ],
             peck_retract: length(Role::CutRetract, &pecks),
             thread_least: length(Role::ThreadLeast, &[Op::Threading]),
             thread_allowance: length(Role::ThreadAllowance, &[Op::Threading]),

@@ -90,3 +90,10 @@ pub fn pecks(module: &Module, context: &mut Context<'_>) {
         }
     });
 }
+
+/// True for a block that says the plane and the depth of its cycle.
+fn tells_all(nc: &Nc, op: Op, by_steps: bool) -> bool {
+    let plane = if by_steps { Role::CycleR } else { Role::CycleRStep };
+    let depths = if op.is_side_hole() { [Role::X, Role::StepX] } else { [Role::Z, Role::StepZ] };
+    nc.word(plane).is_some() && depths.into_iter().any(|depth| nc.word(depth).is_some())
+}

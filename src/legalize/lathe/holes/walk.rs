@@ -2,7 +2,7 @@
 
 use super::rigid::drop_rigid;
 use super::waits::{Waits, names_offset, other_waits};
-use super::{by_place, by_step, drills};
+use super::{by_place, by_step, drills, tells_all};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -10,6 +10,7 @@ use crate::dialect::Control;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::place::{Place, changes_coordinates};
+use crate::legalize::lathe::places::{at_blocks, may_be_entered};
 use crate::legalize::lathe::straight::entered_straight;
 use crate::legalize::layout::blanks::is_empty;
 use crate::legalize::{Context, Modal};
@@ -153,14 +154,17 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     let stands = !turns(Op::SpindleCw) && !turns(Op::SpindleCcw) && !context.features.has(Feature::Code);
     let mut found: Vec<(usize, Diagnostic)> = Vec::new();
     let (mut is_ended, mut open) = (false, Vec::new());
+    let entered = may_be_entered(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
         let all = all(program, &states);
         let all = All { other_waits: other_waits || all.other_waits, stands, ..all };
         let straight = entered_straight(program);
+        let begin = Place::keeping_level();
+        let places = (!entered).then(|| at_blocks(program, begin)).unwrap_or_default();
         let mut walk = Walk {
             cycle: Cycle::default(),
-            place: Place::keeping_level(),
+            place: begin,
             speed: None,
             stands: false,
             waits: waits.begin((index, program)),
@@ -172,7 +176,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
         {
             if !straight {
                 walk.cycle = Cycle::default();
-                walk.place.forget();
+                walk.place = places.get(at).copied().unwrap_or(begin);
                 walk.speed = None;
                 walk.stands = false;
                 walk.waits.come_in(at == 0);
@@ -332,9 +336,13 @@ impl Walk {
             stands: all.stands || stands,
         };
         if before.is_none() {
-            return Some(Err((UNKNOWN, "write G80, or G0 and a place, before the cycle")));
-        }
-        if fresh {
+            // If one is in force, it began where the tool stands on every way, as its holes end there.
+            let level = if op.is_side_hole() { place.x() } else { place.z() };
+            if !begins || level.is_none() || !tells_all(nc, op, by_steps) {
+                return Some(Err((UNKNOWN, UNKNOWN_HELP)));
+            }
+            self.cycle = Cycle { initial: level, ..Cycle::default() };
+        } else if fresh {
             self.cycle = Cycle::default();
         } else if self.cycle.shifted {
             return Some(Err((SHIFTED, "end the cycle before it (G80), and write it again after it")));
@@ -386,7 +394,7 @@ const WAITS: &str =
     "a G4 in a drilling cycle that waits: on one of the two controls its P is the wait of the next hole too";
 const CALLS: &str = "a call in a drilling cycle that waits: on one of the two controls the P of the call is the wait of the next hole too";
 const CALLS_HELP: &str = "end the cycle before the call (G80), and write it again, with its P, after it";
-const OPEN: &str = "a hole without a code of its own, to which other ways lead, and a hole of the library begins below its plane: the way back after that one ends the cycle on \
-                    the target";
+const OPEN: &str = "a hole without a code of its own, to which other ways lead, while a hole of the library begins below its plane: its way back ends the target's cycle";
 const OPEN_HELP: &str = "write the code of the cycle, with its words, into this block too";
 const UNKNOWN: &str = "whether a drilling cycle is in force before this one is not known";
+const UNKNOWN_HELP: &str = "write G80, or G0 and a place, before the cycle";

@@ -317,6 +317,14 @@ fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMean
             row.code.split(' ').next().unwrap_or_default()
         ));
     }
+    let sets =
+        codes.iter().find(|(_, row)| matches!(row.op, Op::TurningSetup | Op::FacingSetup | Op::PatternSetup));
+    if let Some((_, row)) = sets.filter(|_| letter == 'Q') {
+        return Some(format!(
+            "{} has Q and no P: it does not say with which block its contour begins",
+            row.code.split(' ').next().unwrap_or_default()
+        ));
+    }
     let taps = |op: Op| matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid);
     match letter {
         'Q' => has(taps).map(|code| {
