@@ -68,6 +68,7 @@ pub const ALL: &[(&str, &str)] = &[
     ),
     ("machine:lathe.spindle.stands", "a feed a turn while the spindle stands takes no time"),
     ("machine:lathe.taper.turns", "a taper that turns the infeed round is cut all the same"),
+    ("machine:lathe.thread.finishes", "a thread of 0 finishing passes has one"),
     ("machine:lathe.thread.infeed", "a thread without the way of its infeed goes in along one flank"),
     ("machine:lathe.thread.passes", "threads of many passes move as docs/lathe.md says"),
     ("machine:lathe.thread.runout", "a thread without a setting for its run-out has none"),

@@ -251,7 +251,7 @@ fn foreign(stmt: &Stmt) -> Option<String> {
         StmtKind::Comment => return None,
         StmtKind::Nc(nc) => {
             let op = nc.ops().find(|op| {
-                let mode = matches!(op.group(), Group::Distance | Group::Units | Group::Plane);
+                let mode = matches!(op.group(), Group::Units | Group::Plane);
                 mode || op.is_lathe_cycle() || op.is_lathe_setup() || op.is_pass()
             })?;
             let meaning = op.meaning().trim().trim_end_matches('.');

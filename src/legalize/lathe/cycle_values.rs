@@ -98,6 +98,12 @@ pub(super) fn told(
         let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
         return Err((what.to_owned(), "write the number as it is: P021060".to_owned()).into());
     }
+    for (role, value) in &mut values {
+        // P1: none is one.
+        if *role == Role::ThreadFinishes && value.constant() == Some(0.0) {
+            *value = Expr::Number(1.0);
+        }
+    }
     usual(&mut values);
     Ok((values, stood_in))
 }

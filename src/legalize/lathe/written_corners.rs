@@ -74,6 +74,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             straight: entered_straight(program),
             contours: Contours::of(program),
             fates,
+            foreign: context.source.name() != context.target.name(),
             has_steps,
             increments: [numbers.increment_mm, numbers.increment_inch],
             inch: context.target.units() == Some(Units::Inch),
@@ -137,6 +138,8 @@ struct Walk<'p> {
     straight: Vec<bool>,
     contours: Contours,
     fates: [Fate; 2],
+    /// True where the target is another control.
+    foreign: bool,
     /// True where a mode of the library tells increments.
     has_steps: bool,
     /// The target's least increments: millimetres, inches.
@@ -251,6 +254,8 @@ impl<'p> Walk<'p> {
         let fate = match (corners && self.fates[0] == Fate::Lacking, angles, self.fates[1]) {
             (true, ..) | (_, true, Fate::Lacking) => Fate::Lacking,
             (_, true, Fate::Asked) => Fate::Asked,
+            // Of a contour a note of the maker forbids it (docs/lathe.md R9).
+            (_, true, Fate::Kept) if self.foreign && self.contours.inside(first) => Fate::Asked,
             _ => Fate::Kept,
         };
         if signed {

@@ -28,7 +28,8 @@ pub struct Profile {
 impl Profile {
     /// Reads the blocks, as a cycle allows them.
     pub fn read(machine: &Machine, op: Op, contour: &Contour, trace: &mut Trace) -> Result<Self, Stop> {
-        let mut reader = Reader { machine, at: machine.tool_at(), motion: Op::Rapid };
+        let incremental = machine.is_incremental();
+        let mut reader = Reader { machine, at: machine.tool_at(), motion: Op::Rapid, incremental };
         let mut moves = Vec::new();
         for (block, found) in contour.blocks.iter().enumerate() {
             check(op, &found.command, trace)?;
@@ -44,7 +45,8 @@ impl Profile {
         }
         let has = |role: Role| first.is_some_and(|command| command.word(role).is_some());
         let steps = |role: Role| contour.blocks.iter().all(|block| block.command.word(role).is_none());
-        let by_steps = machine.incremental || (steps(Role::X) && steps(Role::Z));
+        let told = contour.blocks.iter().any(|block| block.command.has(Op::Incremental));
+        let by_steps = machine.incremental || told || (steps(Role::X) && steps(Role::Z));
         let names = [has(Role::X) || has(Role::StepX), has(Role::Z) || has(Role::StepZ)];
         let rapid = moves.first().is_some_and(|moved| moved.piece.rapid);
         let (pieces, blocks) = drawn::cornered(moves, contour.blocks.len())?;
@@ -67,7 +69,8 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     use Op::{ArcCcw, ArcCw, Dwell, Linear, OptionalStop, Rapid, Stop as Halt};
     let number = if op == Op::Finish { "PS0325" } else { "PS0066" };
     for found in &command.ops {
-        let mode = matches!(found.group(), Group::RadiusComp | Group::SpeedMode | Group::FeedMode);
+        use Group::{Distance, FeedMode, RadiusComp, SpeedMode};
+        let mode = matches!(found.group(), RadiusComp | SpeedMode | FeedMode | Distance);
         let own = matches!(found.auxiliary(), Some(kind) if kind != Auxiliary::Change);
         let m = matches!(found, Op::MachineSpecific | Op::Builder | Op::Act | Halt | OptionalStop);
         let fine = matches!(found, Rapid | Linear | ArcCw | ArcCcw | Dwell | Op::TurretIndex);
@@ -80,7 +83,7 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         if op != Op::Finish && matches!(found, Op::RadiusLeft | Op::RadiusRight) {
             trace.doubt("machine:lathe.nose.roughing");
         }
-        if matches!(found.group(), Group::SpeedMode | Group::FeedMode) {
+        if matches!(found.group(), SpeedMode | FeedMode) {
             trace.doubt("machine:lathe.contour.modes");
         }
     }
@@ -108,6 +111,7 @@ struct Reader<'m> {
     machine: &'m Machine,
     at: Point,
     motion: Op,
+    incremental: bool,
 }
 
 impl Reader<'_> {
@@ -129,6 +133,9 @@ impl Reader<'_> {
         trace: &mut Trace,
     ) -> Result<(), Stop> {
         self.motion = command.of(Group::Motion).unwrap_or(self.motion);
+        if let Some(mode) = command.of(Group::Distance) {
+            self.incremental = mode == Op::Incremental;
+        }
         let (corner, turn) = corner::of(self.machine, command)?;
         let angled = command.word(Role::LineAngle).is_some();
         // The axis words of a wait are its time.
@@ -161,7 +168,7 @@ impl Reader<'_> {
         if !arcs && arc::has_centre(command) {
             return Err(Stop::unnamed("a corner without a comma in a contour"));
         }
-        let incremental = self.machine.is_incremental();
+        let incremental = self.incremental;
         let (from, to) = (self.at, self.machine.drawn_to(command, self.at, incremental));
         let (piece, open) = if self.motion == Op::Linear {
             let steps = incremental || command.words.iter().any(|(role, _)| role.is_step());

@@ -130,7 +130,7 @@ pub fn many(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resu
     let turning = &machine.rules.turning;
     let (form, stands_in) = (turning.thread_form, turning.two_blocks && !turning.thread_form);
     let screw = match form {
-        true => by_two_blocks(machine, command)?,
+        true => by_two_blocks(machine, command, trace)?,
         false => by_one_block(machine, command, trace)?,
     };
     let lead = machine.feed;
@@ -208,11 +208,20 @@ fn depths(screw: &Screw) -> Result<Vec<f64>, Stop> {
 /// More passes than any thread has.
 const MOST: usize = 10_000;
 
+/// P1: no finishing passes are one.
+fn one_at_least(finishes: f64, trace: &mut Trace) -> f64 {
+    if finishes == 0.0 {
+        trace.doubt("machine:lathe.thread.finishes");
+    }
+    if finishes == 0.0 { 1.0 } else { finishes }
+}
+
 /// P1, P3.
-fn by_two_blocks(machine: &Machine, command: &Command) -> Result<Screw, Stop> {
+fn by_two_blocks(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<Screw, Stop> {
     let (unit, form, turning) = (machine.unit(), machine.lathe.thread, &machine.rules.turning);
     let length = |role| command.word(role).map_or(0.0, |value| value * unit);
     let [finishes, _, angle] = form_of(machine)?;
+    let finishes = one_at_least(finishes, trace);
     let least = form.least.or(turning.thread_least).ok_or_else(|| unset("least depth"))?;
     let allowance =
         form.allowance.or(turning.thread_allowance).ok_or_else(|| unset("finishing allowance"))?;
@@ -262,7 +271,7 @@ fn by_one_block(machine: &Machine, command: &Command, trace: &mut Trace) -> Resu
     let angle = command.word(Role::ThreadAngle).unwrap_or(0.0);
     let (height, first) = (length(Role::ThreadHeight), length(Role::ThreadFirst));
     let (least, allowance, finishes) = match turning.two_blocks {
-        true => by_parameters(turning, angle, (height, first))?,
+        true => by_parameters(turning, angle, (height, first), trace)?,
         false => by_settings(turning, angle, (height, first), trace)?,
     };
     Ok(Screw {
@@ -305,10 +314,12 @@ fn by_parameters(
     turning: &Turning,
     angle: f64,
     (height, first): (f64, f64),
+    trace: &mut Trace,
 ) -> Result<(f64, f64, u32), Stop> {
     let least = turning.thread_least.ok_or_else(|| unset("least depth"))?;
     let allowance = turning.thread_allowance.ok_or_else(|| unset("finishing allowance"))?;
     let finishes = turning.thread_finishes.ok_or_else(|| unset("number of finishing passes"))?;
+    let finishes = one_at_least(finishes, trace);
     check_values(turning, angle, (height, first, least), finishes)?;
     Ok((least, allowance, finishes as u32))
 }
