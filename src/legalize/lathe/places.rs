@@ -13,8 +13,12 @@ pub fn may_be_entered(module: &Module) -> bool {
     module.programs.iter().flat_map(|program| &program.blocks).any(|block| enters(&block.term.kind))
 }
 
-/// For each block, what all ways to it agree in; `begin` is what is known where a run or a call begins.
-pub fn at_blocks(program: &Program, begin: Place) -> Vec<Place> {
+/// For each block, what all ways to it agree in; `begin` is what is known where a run or a call begins, and everywhere where runs may come in
+/// from outside at any number.
+pub fn at_blocks(program: &Program, begin: Place, is_entered: bool) -> Vec<Place> {
+    if is_entered {
+        return vec![begin; program.blocks.len()];
+    }
     let mut known: Vec<Option<Place>> = vec![None; program.blocks.len()];
     let mut open = Vec::new();
     let called = program.blocks.iter().filter_map(|block| match &block.term.kind {

@@ -161,7 +161,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
         let all = All { other_waits: other_waits || all.other_waits, stands, ..all };
         let straight = entered_straight(program);
         let begin = Place::keeping_level();
-        let places = (!entered).then(|| at_blocks(program, begin)).unwrap_or_default();
+        let places = at_blocks(program, begin, entered);
         let mut walk = Walk {
             cycle: Cycle::default(),
             place: begin,
