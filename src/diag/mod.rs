@@ -76,6 +76,11 @@ pub enum Asks {
         /// What it is likely to do.
         op: Option<Op>,
     },
+    /// Which code of the target does what one of the source's does, by the name that the source's profile gives it.
+    There {
+        /// The name: `chuck.clamp`.
+        name: Arc<str>,
+    },
     /// A word that it takes, of a code that the profile names.
     Word {
         /// True for the target's profile.

@@ -23,6 +23,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:feed.mode.at.start", "a lathe starts in feed per turn"),
     ("machine:jump.into.loop", "a jump into a loop goes on inside it"),
     ("machine:lathe.allowance.into.part", "an allowance that points into the part is taken with its sign"),
+    (
+        "machine:lathe.arc.across",
+        "an arc of a lathe in another plane than that of Z and X has X as a diameter, and its centre and radius as radii",
+    ),
     ("machine:lathe.code.moves.nothing", "a code of a lathe that only this control has moves nothing"),
     (
         "machine:lathe.contour.modes",
@@ -78,6 +82,10 @@ pub const ALL: &[(&str, &str)] = &[
         "a tool offset of a lathe counts from the next absolute word on, and X of it is a diameter",
     ),
     ("machine:lathe.tool.word.short", "a tool word of one or two digits is an offset alone"),
+    (
+        "machine:lathe.work.shift",
+        "the shift of all zeros that G10 P0 writes counts at once, beside the external work offset",
+    ),
     ("machine:m99.in.subroutine", "M99 in a subroutine returns from it"),
     ("machine:offset.value.kept", "an offset that is set without a value keeps its earlier value"),
     ("machine:output.half", "a half that output rounds to its places goes away from 0"),

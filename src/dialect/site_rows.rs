@@ -73,6 +73,9 @@ impl Overlay {
         }
         self.check_answers(site);
         self.check_words(site, row);
+        if site.op.is_none() && site.calls.is_none() {
+            self.check_beside(site, row, dialect);
+        }
         if site.op.is_none() {
             self.check_standard(site, row, dialect);
         }
@@ -124,6 +127,19 @@ impl Overlay {
         } else if !site.words.is_empty() {
             let help = "leave 'words' out: the letters of the block are arguments, or none of its business";
             self.site_fault(site, format!("{} has words and calls a program", site.code), help);
+        }
+    }
+
+    /// A row that is chosen by the letter of an axis says what the letter is: else the word would move that axis still.
+    fn check_beside(&mut self, site: &SiteCode, row: &CodeMeaning, dialect: &Dialect) {
+        for beside in row.beside().into_iter().flatten() {
+            let letter = beside.letter.to_string();
+            let moves = dialect.words.iter().any(|word| word.letter == letter && word.role.is_axis());
+            if moves && !row.words.contains_key(&letter) {
+                let help = format!("say what it is: words = {{ {letter} = \"place\" }}");
+                let message = format!("{} would leave {letter} as a move of its own", site.code);
+                self.site_fault(site, message, &help);
+            }
         }
     }
 

@@ -33,6 +33,7 @@ mod variables;
 pub use crate::ir::analysis::{Modal, ModalFacts, Setting, calls_of, reachable, replace_statements, span_of};
 pub use context::{Context, Copied};
 pub use expressions::split::ThenLines;
+pub(crate) use lathe::other_kind::drop_others as drop_what_another_machine_asks;
 pub use layout::program_numbers::ProgramNumbers;
 pub use moves::start::{rests_on, rests_unwritten};
 pub use registers::locked::Locked;

@@ -134,6 +134,7 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
             diagnostics.dedup();
             super::echoes::drop_echoes(&mut diagnostics);
             super::two_paths::drop_others(&mut diagnostics);
+            crate::legalize::drop_what_another_machine_asks(&mut diagnostics);
             let outcome = outcome(&diagnostics);
             let mut map = Vec::new();
             let start = text.len();

@@ -4,7 +4,7 @@
 //! that only a lathe has; Y, a length offset and a change by M6 are signs of a mill. What a lathe program calls, what
 //! calls it and what stands in its file are a lathe's too, unless their own text is a mill's. What both kinds lead to may
 //! be for either. A program without NC words does the same on both machines. A program without any sign follows the rest
-//! of its library, if no program there is a mill's.
+//! of its library, if no program there is a mill's. If the library has programs of both kinds, nobody can tell: it is refused too.
 //! A machine profile may say `machine = "mill"`. Then only what no mill has is a sign, and only programs that are linked
 //! with such a program go with it.
 
@@ -133,14 +133,20 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
     let mill = spread(&signs, &edges, Signs::is_mill, Signs::is_lathe);
     let first = signs.iter().position(Signs::is_lathe).unwrap_or(0);
     for (at, found) in found.iter_mut().enumerate() {
+        let open = !told && !signs[at].is_mill();
         let seen = match (lathe[at], mill[at]) {
-            (Some(seen), None) => seen,
-            (None, None) if !told && mill.iter().all(Option::is_none) && !signs[at].is_mill() => first,
+            (Some(seen), None) => Some(seen),
+            (None, None) if open && mill.iter().all(Option::is_none) => Some(first),
+            (None, None) if open && moves(&module.programs[at]) => None,
             _ => continue,
         };
         if !names_machine(&module.programs[at]) || found.iter().any(|d| d.code == Code::LatheProgram) {
             continue;
         }
+        let Some(seen) = seen else {
+            found.push(Diagnostic::new(Code::LatheProgram, module.programs[at].site.span, EITHER));
+            continue;
+        };
         let Some((span, sign)) = &signs[seen].first else { continue };
         let own = seen == at;
         let what = if own {
@@ -160,9 +166,19 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
     }
 }
 
+const EITHER: &str =
+    "the library has programs of lathes and of mills, and nothing in this one shows which of them it is for";
+
+/// True where a program moves along X or Z, which are a diameter and the way along the spindle on a lathe.
+fn moves(program: &Program) -> bool {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if has(nc, Role::X) || has(nc, Role::Z)))
+}
+
 /// Adds how a folder with the programs of two machines is converted.
 fn say_of_two_machines(finding: &mut Diagnostic) {
-    let help = finding.help.take().map(|help| format!("{help}. ")).unwrap_or_default();
+    let help = finding.help.take().map(|help| format!("{help}. "));
+    let help = help.unwrap_or_else(|| "name a machine profile with machine = \"mill\" or \"lathe\". ".into());
     let more = "The library has programs of a mill too: macroglot.toml can make two libraries of the folder, where `only` \
                 and `except` say which files are of which";
     finding.help = Some(format!("{help}{more}").into());
@@ -270,9 +286,11 @@ mod tests {
         // A macro that only computes is for any machine.
         assert_eq!(lathes(FANUC, &[TURNS, "O2\n#500=#500+1\nM99\n"]), [true, false]);
         let other = "O3\nG1 X40. F100.\nM30\n";
-        // Without any sign it follows the folder, unless that has mill programs too.
+        // Without any sign it follows the folder. Where that has mill programs too, nobody can tell.
         assert_eq!(lathes(FANUC, &[TURNS, other]), [true, true]);
-        assert_eq!(lathes(FANUC, &[TURNS, other, &MILLS.replace("M98 P2\n", "")]), [true, false, false]);
+        let mills = MILLS.replace("M98 P2\n", "");
+        assert_eq!(lathes(FANUC, &[TURNS, other, &mills]), [true, true, false]);
+        assert_eq!(lathes(FANUC, &[TURNS, "O3\nG4 P500\nM30\n", &mills]), [true, false, false]);
         assert_eq!(lathes(FANUC, &[&format!("{TURNS}{other}"), MILLS]), [true, true, false]);
     }
 

@@ -2,7 +2,8 @@
 //!
 //! Law: a block in which one path waits for the others, or a mark before a path's part of the file, says that another program runs
 //! beside this one. What a conversion would have to keep then is the order of the two, which no control here is run for; so the
-//! program is refused, with one finding. Counter-example: an M code of the builder with a P that names no paths.
+//! program is refused, with one finding, and after a mark all programs of the file are. Counter-example: an M code of the builder
+//! with a P that names no paths.
 
 use super::Input;
 use crate::diag::{Code, Diagnostic};
@@ -35,13 +36,14 @@ impl Signs {
     }
 
     /// What in a block shows another path.
-    fn sign(&self, block: &Block, bytes: &[u8], control: &Control) -> Option<String> {
+    fn sign(&self, block: &Block, bytes: &[u8], control: &Control) -> Option<Sign> {
         let text = String::from_utf8_lossy(block.span.of(bytes));
         let text = text.trim();
+        let sign = |is_mark: bool, what: String| Sign { span: block.span, is_mark, what };
         if let Some(rest) = self.mark.as_ref().and_then(|mark| text.strip_prefix(mark.as_str()))
             && rest.starts_with(|letter: char| letter.is_ascii_digit())
         {
-            return Some(format!("{text} begins the part of one path"));
+            return Some(sign(true, format!("{text} begins the part of one path")));
         }
         let (first, last) = self.waits?;
         let mut words = Vec::new();
@@ -60,8 +62,16 @@ impl Signs {
         let waits = value('P').is_some_and(|paths| self.paths.contains(&paths))
             && words.iter().all(|word| "MPN".contains(word.0));
         (waits && !of_builder && control.code('M', code, &words).is_none())
-            .then(|| format!("at {text} the paths of the machine wait for each other"))
+            .then(|| sign(false, format!("at {text} the paths of the machine wait for each other")))
     }
+}
+
+/// A block that shows another path.
+struct Sign {
+    span: Span,
+    /// True of a mark: all programs of the file are parts of paths.
+    is_mark: bool,
+    what: String,
 }
 
 /// Refuses the programs that show a second path, each with one finding.
@@ -72,8 +82,8 @@ pub(super) fn report(module: &Module, inputs: &[Input], control: &Control, found
     }
     for (file, input) in inputs.iter().enumerate() {
         let blocks = parse_file(&input.bytes, control.entry().parse).blocks;
-        let shown = |block: &Block| Some((block.span, signs.sign(block, &input.bytes, control)?));
-        let shown: Vec<(Span, String)> = blocks.iter().filter_map(shown).collect();
+        let shown: Vec<Sign> =
+            blocks.iter().filter_map(|block| signs.sign(block, &input.bytes, control)).collect();
         for (at, found) in found.iter_mut().enumerate() {
             let Some(program) = module.programs.get(at).filter(|program| program.file == file) else {
                 continue;
@@ -84,10 +94,13 @@ pub(super) fn report(module: &Module, inputs: &[Input], control: &Control, found
             let begins = if is_first { 0 } else { program.site.span.start };
             let next = module.programs.get(at + 1).filter(|next| next.file == file);
             let ends = next.map_or(u32::MAX, |next| next.site.span.start);
-            let own = |sign: &&(Span, String)| (begins..ends).contains(&sign.0.start);
-            if let Some((span, what)) = shown.iter().find(own) {
-                let what = format!("the program is one of several that run at the same time: {what}");
-                found.push(Diagnostic::new(Code::TwoPaths, *span, what));
+            let own = |sign: &&Sign| (begins..ends).contains(&sign.span.start);
+            // The part of a path goes on to the next mark, over the heads of its programs.
+            let before = |sign: &&Sign| sign.is_mark && sign.span.start < ends;
+            let part = || shown.iter().rfind(before).or_else(|| shown.iter().find(|sign| sign.is_mark));
+            if let Some(sign) = shown.iter().find(own).or_else(part) {
+                let what = format!("the program is one of several that run at the same time: {}", sign.what);
+                found.push(Diagnostic::new(Code::TwoPaths, sign.span, what));
             }
         }
     }
@@ -134,6 +147,17 @@ mod tests {
     fn a_mark_before_the_first_program() {
         let told = said("", "$1\nO1\nT0101\nG0 X50. Z2.\nM30\n");
         assert!(told.iter().any(|(code, _)| *code == Code::TwoPaths), "{told:?}");
+    }
+
+    #[test]
+    fn all_programs_of_a_file_with_marks_are_parts_of_paths() {
+        let source = Control::from_profile("dialect = \"fanuc\"\nmachine = \"lathe\"").unwrap();
+        let target = Control::from_profile("dialect = \"haas\"\nmachine = \"lathe\"").unwrap();
+        let text = "O5\nG0 X50.\nM30\n$1\nO1\nG0 X50.\nM30\n$2\nO1\nG0 X60.\nM30\nO2\nG0 X70.\nM99\n";
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: text.into() }];
+        let made = convert(&inputs, &source, &target, Lock::new("fanuc", "haas"), Options::default());
+        assert_eq!(made.programs.len(), 4);
+        assert!(made.programs.iter().all(|program| program.outcome == Outcome::Refused));
     }
 
     #[test]

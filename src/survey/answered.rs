@@ -43,6 +43,7 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
             .chain(start)
             .chain(settings(survey, Side::Source))
             .chain(words(survey, Side::Source))
+            .chain(left_out(survey))
             .collect(),
     );
     let programs = super::programs::entries(survey);
@@ -80,6 +81,17 @@ fn words<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answer>
         Box::new(move |profile| {
             let sites = profile.site.iter_mut().filter(|site| site.code == code);
             sites.for_each(|site| _ = site.words.entry(letter.clone()).or_insert_with(|| name.clone()));
+        })
+    })
+}
+
+/// The codes for which the target would have to have one by their name: as if there were nothing to do there.
+fn left_out<'s>(survey: &'s Survey<'_>) -> impl Iterator<Item = Answer> + use<'s> {
+    survey.there.iter().map(|asked| -> Answer {
+        let name = asked.name.clone();
+        Box::new(move |profile| {
+            let sites = profile.site.iter_mut().filter(|site| site.name.as_ref() == Some(&name));
+            sites.for_each(|site| site.without = Some(Without::Omit));
         })
     })
 }

@@ -75,7 +75,7 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     text = with_words(&text, &words, (ASKS, TELLS));
     match side {
         Side::Source => codes(&mut text, survey),
-        Side::Target => text = super::programs::asked_in(&text, survey),
+        Side::Target => text = super::there::asked_in(&text, survey),
     }
     match read(&text)? == before {
         true => Ok(text),

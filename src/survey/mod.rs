@@ -14,6 +14,7 @@ mod programs;
 mod shape;
 mod start;
 mod text;
+mod there;
 mod words;
 
 pub use codes::AskedCode;
@@ -23,6 +24,7 @@ pub use keys::AskedSetting;
 pub use shape::{Missing, Shape};
 pub use start::AskedStart;
 pub use text::text;
+pub use there::AskedThere;
 pub use words::AskedWord;
 
 use crate::diag::{Code, Diagnostic, Severity};
@@ -59,6 +61,8 @@ pub struct Survey<'a> {
     pub settings: Vec<AskedSetting>,
     /// Words that the profiles of the machines would have to name at codes of their builders.
     pub words: Vec<AskedWord>,
+    /// Names of the source's codes for which the target's profile has no code.
+    pub there: Vec<AskedThere>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
@@ -122,6 +126,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let mut settings = keys::asked(&places, controls, &conversion.programs);
     settings.extend(digits);
     let words = words::asked(&places, &conversion.programs);
+    let there = there::asked(&places, source, &conversion.programs);
     for program in &mut conversion.programs {
         let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);
         program.diagnostics.retain(|finding| !codes::asks_code(finding) && !of_shape(finding.code));
@@ -139,6 +144,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         start_of_target,
         settings,
         words,
+        there,
         rest: conversion,
         then: Vec::new(),
         now,

@@ -130,6 +130,7 @@ fn stands_for(
                 Some(site) => (site.code.clone(), site.name.clone()),
                 None => ("it".into(), None),
             };
+            let asks = given.as_deref().map(|name| Asks::There { name: name.into() });
             let help = match given {
                 Some(name) => format!(
                     "if the target has a code for it, put it into the target's profile: [[site]] with code, \
@@ -137,7 +138,14 @@ fn stands_for(
                 ),
                 None => format!("say in the source's profile what becomes of it: target = \"M88\" at {code}"),
             };
-            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+            let told = Diagnostic::new(Code::NoEquivalent, span, what).with_help(help);
+            context.add(
+                index,
+                match asks {
+                    Some(asks) => told.asking_for(asks),
+                    None => told,
+                },
+            );
             return None;
         }
     };

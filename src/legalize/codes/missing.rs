@@ -5,7 +5,7 @@
 
 use crate::canon::Op;
 use crate::diag::{Asks, Code, Diagnostic};
-use crate::dialect::{Control, Question};
+use crate::dialect::{Control, Machine, Question};
 use crate::ir::{Program, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
@@ -52,9 +52,11 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         let what = format!("{} has no code for this ({op}): {meaning}", target.title);
         let finding = Diagnostic::new(Code::NoEquivalent, span, what);
         let stand_in = stand_in(op, context.source);
+        let lathe = context.target.machine() == Machine::Lathe;
+        let zero = (lathe && op == Op::SetPosition).then(|| set_zero(context.source));
         context.add(
             index,
-            match (help(op), stand_in) {
+            match (help(op).or(zero), stand_in) {
                 (Some(help), _) => finding.with_help(help),
                 (None, Some((code, help))) => {
                     finding.with_help(help).asking_for(Asks::Code { code: code.into(), op: None })
@@ -75,6 +77,16 @@ fn stand_in(op: Op, source: &Control) -> Option<(String, String)> {
          the target's builder has too, or target, or do = \"omit\" or \"stop\""
     );
     Some((code, help))
+}
+
+/// What becomes of a zero that a program sets from where the tool stands.
+fn set_zero(source: &Control) -> String {
+    let code = source.code_for(Op::SetPosition, &BTreeMap::new()).map_or("G50", |row| row.code.as_str());
+    format!(
+        "set this zero on the target by a work offset (G54) and the tool offsets, and take the block out. If it changes nothing \
+         there, as {code} C0 after the return of C, say so in the source's profile: [[site]] with code = \"{code} C\", words = {{ \
+         C = \"place\" }}, do = \"omit\" and a text"
+    )
 }
 
 const LEADS: &str = "cut this thread on a machine that has the code. Threads of one lead each, block after block, only come near it: if that is \

@@ -8,19 +8,22 @@
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
+use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Converts the times of dwells.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let target = context.target;
     let code = target.code_for(Op::Dwell, &BTreeMap::new());
     let (ms, s) = (target.letter(Role::DwellMs, code).is_some(), target.letter(Role::DwellS, code).is_some());
+    let summaries = context.summaries(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut computed: Vec<(bool, Span)> = Vec::new();
         let waits = target.number(Question::DwellWaits);
+        let set = times_that_are_set(program, &summaries);
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
             let vacant = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.may_be_vacant());
@@ -29,7 +32,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             if in_cycle || nc.has(Op::Dwell) && convert(nc, ms, s) {
                 computed.push((in_cycle, stmt.site.span));
             }
-            if dropped && !nc.items.iter().any(vacant) {
+            if dropped && !nc.items.iter().any(vacant) && !set.contains(&stmt.site.span) {
                 let what = "if the time of this dwell is vacant, the source has no time in the block and the \
                      target has 0";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
@@ -57,6 +60,27 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.unconfirmed(index, Side::Target, *span, Question::DwellExpression.fact(), what);
         }
     }
+}
+
+/// The dwells whose time is a variable that has a value there, whatever run comes to it.
+fn times_that_are_set(program: &Program, summaries: &Summaries) -> Vec<Span> {
+    let by_variable = |stmt: &Stmt| {
+        let vacant = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.may_be_vacant());
+        stmt.kind.nc().is_some_and(|nc| nc.has(Op::Dwell) && nc.items.iter().any(vacant))
+    };
+    let mut found = Vec::new();
+    if !program.blocks.iter().flat_map(|block| &block.stmts).any(by_variable) {
+        return found;
+    }
+    let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
+    for (id, block) in program.ids().zip(&program.blocks) {
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            let Some(nc) = stmt.kind.nc().filter(|nc| nc.has(Op::Dwell)) else { continue };
+            let vacant = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.may_be_vacant() && vacancy.may_yield_vacant(id, at, value));
+            found.extend((!nc.items.iter().any(vacant)).then_some(stmt.site.span));
+        }
+    }
+    found
 }
 
 /// Writes two dwells of half the time for each of this time. What stands beside a dwell stays in the first block.

@@ -22,10 +22,10 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         }
         let act = nc.word(Role::Act).and_then(Expr::constant);
         let is_clamp = |clamp: [Option<Act>; 2]| clamp[0].is_some_and(|clamp| act == Some(clamp.number()));
+        let names = nc.items.iter().any(|item| matches!(item, NcItem::Code('M', _) | NcItem::Op(Op::Act)));
+        let open = [context.source, context.target].iter().all(|control| control.leaves_open(HOLE_CLAMP));
         if !alike {
             let found = Diagnostic::new(Code::NoEquivalent, span, WHAT);
-            let names =
-                nc.items.iter().any(|item| matches!(item, NcItem::Code('M', _) | NcItem::Op(Op::Act)));
             context.add(
                 index,
                 match context.source.leaves_open(HOLE_CLAMP) && names {
@@ -47,10 +47,17 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     },
                 );
             }
+        } else if names && open {
+            let found = Diagnostic::new(Code::Conditional, span, UNTOLD).with_help(UNTOLD_HELP);
+            context.add_once(index, UNTOLD, found.lacking(HOLE_CLAMP));
         }
     });
 }
 
+const UNTOLD: &str = "an M code in a drilling block stays, and neither profile says that it clamps the C axis for the hole: make sure that both machines do \
+                      the same by it";
+const UNTOLD_HELP: &str = "if it does, give its number as \"5110\" under [parameters] of both profiles, and name it and the code of the next number under \
+                           [[site]] in both";
 const ONE_CLAMPS: &str = "this code clamps the C axis for the hole of its block on one of the two machines alone: parameter 5110 is given in one profile, or \
                           the codes of the two have other names";
 const ONE_CLAMPS_HELP: &str = "give 5110 under [parameters] of both profiles, and that code and the next one the same names under [[site]] in both";

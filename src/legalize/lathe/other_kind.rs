@@ -14,10 +14,24 @@ use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::legalize::lathe::settings::Kind;
 
+const TURNS: &str = "it cannot turn";
+const DIAMETERS: &str = "it takes X for a diameter";
+
 fn why(context: &Context<'_>) -> &'static str {
     match context.source.machine() {
-        Machine::Lathe => "it cannot turn",
-        Machine::Mill => "it takes X for a diameter",
+        Machine::Lathe => TURNS,
+        Machine::Mill => DIAMETERS,
+    }
+}
+
+/// What else was found in a program that is for another kind of machine asks for nothing: it is refused as a whole. Only that its
+/// codes are those of another system stays, as the kind may rest on it.
+pub fn drop_others(diagnostics: &mut Vec<Diagnostic>) {
+    let whole = |found: &Diagnostic| {
+        found.code == Code::NoEquivalent && [TURNS, DIAMETERS].iter().any(|why| found.message.ends_with(why))
+    };
+    if diagnostics.iter().any(whole) {
+        diagnostics.retain(|found| whole(found) || found.code == Code::CodeSystem);
     }
 }
 

@@ -4,7 +4,7 @@
 //! from where it began; what a contour's words say counts inside it alone.
 
 use crate::canon::{Group, Op, Role};
-use crate::ir::{Expr, Nc, NcItem, Place as Target, Stmt, StmtKind};
+use crate::ir::{BinOp, Expr, Nc, NcItem, Place as Target, Stmt, StmtKind};
 
 /// What is known of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -224,6 +224,50 @@ impl Place {
             Role::Z | Role::StepZ => self.at.z = by(self.at.z),
             _ => {}
         }
+    }
+}
+
+/// Makes places of increments, if all of them are known.
+pub(super) fn to_places(nc: &mut Nc, from: Place) {
+    let place = |item: &NcItem| {
+        let NcItem::Word(role, value) = item else { return Some(item.clone()) };
+        let (whole, from) = match role {
+            Role::StepX => (Role::X, from.x()?),
+            Role::StepZ => (Role::Z, from.z()?),
+            role if role.is_step() => return None,
+            _ => return Some(item.clone()),
+        };
+        let to = match value.constant() {
+            Some(by) => Expr::Number(((from + by) * 1e6).round() / 1e6),
+            // A count of increments stands by itself.
+            None if matches!(value, Expr::Increments(_) | Expr::Negate(_)) || value.count().is_some() => {
+                return None;
+            }
+            None => Expr::binary(BinOp::Add, Expr::Number(from), value.clone()),
+        };
+        Some(NcItem::Word(whole, to))
+    };
+    if let Some(items) = nc.items.iter().map(place).collect() {
+        nc.items = items;
+    }
+}
+
+/// Makes increments of places along X and Z, where the tool is known to stand: C has no place that is followed here, so `X40. H90.` is
+/// a way of both. Nothing changes where a place is computed, or one of another axis.
+pub(super) fn to_steps(nc: &mut Nc, from: Place) {
+    let step = |item: &NcItem| {
+        let NcItem::Word(role, value) = item else { return Some(item.clone()) };
+        let (step, from) = match role {
+            Role::X => (Role::StepX, from.x()?),
+            Role::Z => (Role::StepZ, from.z()?),
+            role if Role::STEPS.iter().any(|(whole, _)| whole == role) => return None,
+            _ => return Some(item.clone()),
+        };
+        Some(NcItem::Word(step, Expr::Number(((value.constant()? - from) * 1e6).round() / 1e6)))
+    };
+    let plain = nc.ops().all(|op| matches!(op.group(), Group::Motion | Group::Distance | Group::FeedMode));
+    if let Some(items) = nc.items.iter().map(step).collect::<Option<_>>().filter(|_| plain) {
+        nc.items = items;
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::contour_modes::{Modes, reached};
 use super::contour_starts::Contours;
-use super::place::Place;
+use super::place::{self, Place};
 use super::restarts::restarts;
 use super::straight::entered_straight;
 use super::zeros::{adds, sets_zero};
@@ -15,7 +15,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, STEP_LETTERS};
 use crate::ir::analysis::calls_of;
 use crate::ir::analysis::over_calls::called;
-use crate::ir::{BinOp, Call, Callee, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{Call, Callee, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
@@ -228,7 +228,10 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let table = sets_zero(nc) && !nc.has(Op::SetPosition);
                 // The depth of a hole counts from its plane, not from where the tool stands.
                 if !place.drills() && !table && (both_kinds(nc) || inside) {
-                    to_places(nc, before);
+                    place::to_places(nc, before);
+                    if !inside && !letters && both_kinds(nc) {
+                        place::to_steps(nc, before);
+                    }
                 }
                 // The blocks of a contour are places: the cycle must not read them under G91.
                 if !moves(nc) && !sets_zero(nc) && !nc.ops().any(Op::reads_contour) {
@@ -332,31 +335,6 @@ fn has_places(nc: &Nc) -> bool {
 /// True of a block with places and increments.
 fn both_kinds(nc: &Nc) -> bool {
     has_steps(nc) && has_places(nc)
-}
-
-/// Makes places of increments, if all of them are known.
-fn to_places(nc: &mut Nc, from: Place) {
-    let place = |item: &NcItem| {
-        let NcItem::Word(role, value) = item else { return Some(item.clone()) };
-        let (whole, from) = match role {
-            Role::StepX => (Role::X, from.x()?),
-            Role::StepZ => (Role::Z, from.z()?),
-            role if role.is_step() => return None,
-            _ => return Some(item.clone()),
-        };
-        let to = match value.constant() {
-            Some(by) => Expr::Number(((from + by) * 1e6).round() / 1e6),
-            // A count of increments stands by itself.
-            None if matches!(value, Expr::Increments(_) | Expr::Negate(_)) || value.count().is_some() => {
-                return None;
-            }
-            None => Expr::binary(BinOp::Add, Expr::Number(from), value.clone()),
-        };
-        Some(NcItem::Word(whole, to))
-    };
-    if let Some(items) = nc.items.iter().map(place).collect() {
-        nc.items = items;
-    }
 }
 
 /// True for a block whose axis words say where something goes.

@@ -6,8 +6,8 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Machine;
-use crate::ir::{Module, Nc, NcItem};
+use crate::dialect::{Control, Machine};
+use crate::ir::{Expr, Module, Nc, NcItem};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
@@ -45,13 +45,30 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             (nc.has(Op::WriteWork) && steps).then_some((WORK, WORK_HELP)),
             (nc.has(Op::WriteTurret) && places && by_mode).then_some((TOOL, TOOL_HELP)),
         ];
-        for (what, help) in found.into_iter().flatten() {
+        let shift = nc.word(Role::OffsetRow).and_then(Expr::constant) == Some(0.0);
+        let lost = [Op::WriteWork, Op::WriteTurret].into_iter().find(|op| shift && nc.has(*op));
+        let all = lost.filter(|op| !takes_shift(context.target, *op)).map(|_| (ALL, ALL_HELP));
+        for (what, help) in found.into_iter().flatten().chain(all) {
             let told = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
             context.add_once(index, &format!("{what} {:?}", stmt.site.span), told);
         }
     });
 }
 
+/// True where a control writes the shift of all zeros by the number 0 of that code.
+fn takes_shift(control: &Control, op: Op) -> bool {
+    let mut rows = control.dialect().codes.iter().filter(|row| row.op == op);
+    rows.any(|row| {
+        let parts = row.shift.get(&Role::OffsetRow);
+        parts.is_none_or(|parts| {
+            parts.iter().any(|part| (i64::from(part.first)..=i64::from(part.last)).contains(&-part.add))
+        })
+    })
+}
+
+const ALL: &str = "the shift of all zeros is written by P0, and the target has no code for that";
+const ALL_HELP: &str =
+    "write the shift into the work offsets that the part needs (G10 L2 P1), or as a local shift (G52)";
 const SHIFT: &str =
     "an increment of the local shift (G52): no source says whether it adds to the shift or replaces it";
 const SHIFT_HELP: &str = "write the whole shift with X and Z, under G90 where the control has it";

@@ -9,9 +9,15 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Axis, Control, Machine, Question};
-use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::ir::analysis::Vacancy;
+use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Var};
 use crate::legalize::lathe::steps::has_letters;
 use crate::legalize::{Context, replace_statements};
+use std::cell::LazyCell;
+use std::collections::BTreeSet;
+
+/// Nothing is known of arguments.
+static NONE: BTreeSet<Var> = BTreeSet::new();
 
 const ROTARY: &str = "this return takes all axes of the source along, and the target does not have all of the rotary ones: make sure that \
                       they stand at their reference position, or that the target's machine has no such axes";
@@ -30,7 +36,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         (context.source.is(Question::ReferenceAllAxes), context.target.is(Question::ReferenceAllAxes));
     if here && there
         || context.source.name() == context.target.name()
-        || !ncs().any(|nc| bare(nc) || empty(nc))
+        || !ncs().any(|nc| bare(nc) || empty(nc, &|_| true))
     {
         return;
     }
@@ -136,25 +142,29 @@ fn has_axis(control: &Control, role: Role) -> Option<bool> {
 
 /// What a return without axes does on the source is not known; on the target it may move all of them.
 fn doubt(module: &Module, all: bool, context: &mut Context<'_>) {
+    let summaries = context.summaries(module);
     for (index, program) in module.programs.iter().enumerate() {
-        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-            let StmtKind::Nc(nc) = &stmt.kind else { continue };
-            if bare(nc) {
-                let what = "no source says what a return to the reference position without axes does on the \
-                     source: name the axes";
-                context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
-            } else if all && empty(nc) {
-                let what = "all axis words of this return may be vacant; the target then moves all axes";
-                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
+        let vacancy = LazyCell::new(|| Vacancy::of(program, &summaries, &NONE));
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                if bare(nc) {
+                    let what = "no source says what a return to the reference position without axes does on the \
+                         source: name the axes";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+                } else if all && empty(nc, &|value| vacancy.may_yield_vacant(id, at, value)) {
+                    let what = "all axis words of this return may be vacant; the target then moves all axes";
+                    context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
+                }
             }
         }
     }
 }
 
 /// True where all axes may be dropped from a return, because their values may be vacant.
-fn empty(nc: &Nc) -> bool {
+fn empty(nc: &Nc, may_be_vacant: &dyn Fn(&Expr) -> bool) -> bool {
     let axes = |item: &NcItem| match item {
-        NcItem::Word(role, value) if role.is_axis() => Some(value.may_be_vacant()),
+        NcItem::Word(role, value) if role.is_axis() => Some(value.may_be_vacant() && may_be_vacant(value)),
         _ => None,
     };
     nc.has(Op::ReferenceReturn) && nc.moves() && nc.items.iter().filter_map(axes).all(|vacant| vacant)

@@ -74,11 +74,13 @@ fn moves(nc: &Nc, before: &Modal, source: &Control, target: &Control) -> Result<
     let known = axes.iter().all(|(role, _)| setting(*role).is_some());
     let by_mode = source.code_for(Op::Incremental, &BTreeMap::new()).is_some();
     let whole = axes.iter().any(|(role, _)| !role.is_step());
-    if !second
-        || !known
-        || axes.is_empty()
-        || whole && by_mode && before.op(Group::Distance) != Some(Op::Absolute)
-    {
+    let mut now = before.clone();
+    now.step_words(nc);
+    let under = now.op(Group::Distance).filter(|_| whole && by_mode);
+    let no_way = axes.iter().all(|(_, value)| value.constant() == Some(0.0));
+    // Under G91 a way of 0 is none, as U0 and W0 are.
+    let in_steps = under == Some(Op::Incremental) && no_way;
+    if !second || !known || axes.is_empty() || whole && by_mode && under != Some(Op::Absolute) && !in_steps {
         return Err(Stays(OTHER, OTHER_HELP, Vec::new()));
     }
     let missing: Vec<&'static str> = axes
@@ -93,7 +95,7 @@ fn moves(nc: &Nc, before: &Modal, source: &Control, target: &Control) -> Result<
     if before.op(Group::Units).is_some_and(|op| target.units().map(unit) != Some(op)) {
         return Err(Stays(UNIT, UNIT_HELP, Vec::new()));
     }
-    let stays = axes.iter().all(|(role, value)| role.is_step() && value.constant() == Some(0.0));
+    let stays = in_steps || no_way && axes.iter().all(|(role, _)| role.is_step());
     let mut out = Vec::new();
     if !stays {
         let words = axes.iter().map(|(role, value)| NcItem::Word(*role, value.clone()));
@@ -111,7 +113,14 @@ fn moves(nc: &Nc, before: &Modal, source: &Control, target: &Control) -> Result<
         let place = setting(*role).and_then(|name| stated(name, target));
         home.extend(place.map(|place| NcItem::Word(whole, Expr::Number(place))));
     }
-    out.push(home);
+    if in_steps {
+        home.retain(|item| *item != NcItem::Op(Op::Incremental));
+        home.insert(0, NcItem::Op(Op::Absolute));
+        out.push(home);
+        out.push(vec![NcItem::Op(Op::Incremental)]);
+    } else {
+        out.push(home);
+    }
     let again = before.op(Group::Motion).filter(|op| !stays && *op != Op::Rapid);
     out.extend(again.map(|op| vec![NcItem::Op(op)]));
     Ok(out)
@@ -124,7 +133,7 @@ fn axis(item: &NcItem) -> Option<(Role, Expr)> {
     }
 }
 
-const OTHER: &str = "a return to another reference position than the second, of other axes than X and Z, or under G91: the target has no code for it";
+const OTHER: &str = "a return to another reference position than the second, of other axes than X and Z, or by increments under G91: the target has no code for it";
 const OTHER_HELP: &str = "write the place as a move in machine coordinates (G53)";
 const MISSING: &str = "the target has no code for the second reference position, and its profile gives no number for the place that stands for it";
 const MISSING_HELP: &str = "write the place in machine coordinates into the target's profile, under [settings]: second_home_x and second_home_z";

@@ -164,6 +164,10 @@ fn read(
         Sys::Euler => Expr::Number(std::f64::consts::E),
         Sys::Empty => Expr::Vacant,
         _ => {
+            if let Some(own) = own(state, &subscripts, source) {
+                found.push((span, own));
+                return Expr::Number(0.0);
+            }
             let row = held(state, &subscripts, source).filter(|_| state == Sys::Modal);
             let note = row.and_then(|row| row.origin.note.clone());
             found.push((span, Finding::Missing(state, note, row.and_then(|row| unstated(row, source)))));
@@ -258,7 +262,18 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
             return;
         }
     }
-    found.push((span, Finding::Missing(*state, None, None)));
+    let missing = || Finding::Missing(*state, None, None);
+    found.push((span, own(*state, subscripts, source).unwrap_or_else(missing)));
+}
+
+/// A variable that only the source's control has.
+fn own(state: Sys, subscripts: &[Expr], source: &Control) -> Option<Finding> {
+    if state != Sys::Other {
+        return None;
+    }
+    let numbers: Option<Vec<u32>> = subscripts.iter().map(|s| s.constant().map(|n| n as u32)).collect();
+    let (name, number, row) = source.system_address(state, &numbers?)?;
+    Some(Finding::Own(format!("{name}{}", number?), row.origin.note.clone()))
 }
 
 /// By what a number of the source's cutter table is multiplied to be one of the target's; none if nobody stated

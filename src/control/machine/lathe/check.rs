@@ -6,6 +6,9 @@ use crate::control::machine::{Command, Machine, arc};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
 
+/// The place of the Y axis.
+const Y: usize = 1;
+
 /// An absolute word and the increment of the same axis.
 const TWINS: [(Role, Role); 4] =
     [(Role::X, Role::StepX), (Role::Y, Role::StepY), (Role::Z, Role::StepZ), (Role::C, Role::StepC)];
@@ -113,7 +116,8 @@ fn tool_word(command: &Command) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Arcs are made in the plane of Z and X (C6), or in that of a surface that is milled with C (V3, V8); compensation does not begin in one (Q1).
+/// Arcs are made in the plane of Z and X (C6), in another one by a lathe with a Y axis (C10), or in that of a surface that is milled
+/// with C (V3, V8); compensation does not begin in one (Q1).
 fn arcs(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     let motion = command.of(Group::Motion).unwrap_or(machine.motion);
     let whole = machine.lathe.surface.is_some() && arc::has_centre(command);
@@ -123,7 +127,11 @@ fn arcs(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<(), S
     let plane = command.of(Group::Plane);
     let zx = plane.map_or(machine.plane == crate::control::trace::Plane::Zx, |op| op == Op::PlaneZx);
     let there = super::surface::arcs(machine).unwrap_or(zx);
-    if !there {
+    // A lathe with a Y axis mills in the other planes too: X is a diameter there, and I, J, K and R are radii (C10).
+    let across = machine.lathe.surface.is_none() && machine.rules.turning.axes.contains(&Y);
+    if !there && across {
+        trace.doubt("machine:lathe.arc.across");
+    } else if !there {
         return Err(Stop::unnamed(match machine.lathe.surface {
             Some(_) => "an arc outside the plane of the milling with C",
             None => "an arc outside the plane of Z and X",

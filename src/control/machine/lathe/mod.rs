@@ -78,6 +78,8 @@ pub(super) struct Lathe {
     pub table: BTreeMap<u32, Offset>,
     /// What is written as the geometry of a tool.
     pub geometry: BTreeMap<u32, Offset>,
+    /// What is written as the shift of all zeros, along X (a diameter), Y and Z.
+    pub work_shift: [f64; 3],
     /// The limit of turns a minute.
     pub limit: Option<f64>,
     /// The last speed in turns, and the last surface speed.

@@ -116,8 +116,8 @@ impl Machine {
     ) -> Result<(), Stop> {
         let number = command.number(Role::OffsetRow).unwrap_or(0);
         let (number, geometry) = if number > GEOMETRY { (number - GEOMETRY, true) } else { (number, false) };
-        if number == 0 {
-            return Err(Stop::unnamed("the shift of all zeros, written by its number 0"));
+        if number == 0 && !geometry {
+            return self.write_work_shift(command, trace);
         }
         if command.word(Role::C).or(command.word(Role::StepC)).is_some() {
             return Err(Stop::unnamed("an increment of a nose radius"));
@@ -145,6 +145,34 @@ impl Machine {
             }
             let row = if geometry { number + GEOMETRY } else { number };
             trace.push(EventKind::Write { state, subscripts: vec![row], value });
+        }
+        Ok(())
+    }
+
+    /// Writes the shift of all zeros: from then on it counts in all work offsets (Z8).
+    fn write_work_shift(&mut self, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+        let other = [Role::OffsetNose, Role::OffsetTip, Role::C, Role::StepC];
+        if other.iter().any(|role| command.word(*role).is_some()) {
+            return Err(Stop::unnamed("a word beside the shift of all zeros that is no place of it"));
+        }
+        trace.doubt("machine:lathe.work.shift");
+        trace.rounded = self.off_by() + self.most_off(command, |_| true);
+        let unit = self.unit();
+        for (role, value) in command.words.iter().copied() {
+            let (state, axis, adds) = match role {
+                Role::X => (Sys::LatheX, 0, false),
+                Role::StepX => (Sys::LatheX, 0, true),
+                Role::Y => (Sys::LatheY, 1, false),
+                Role::StepY => (Sys::LatheY, 1, true),
+                Role::Z => (Sys::LatheZ, 2, false),
+                Role::StepZ => (Sys::LatheZ, 2, true),
+                _ => continue,
+            };
+            let old = if adds { self.lathe.work_shift[axis] } else { 0.0 };
+            let shift = old + value * unit;
+            self.frame.external[axis] += shift - self.lathe.work_shift[axis];
+            self.lathe.work_shift[axis] = shift;
+            trace.push(EventKind::Write { state, subscripts: vec![0], value: shift / unit });
         }
         Ok(())
     }

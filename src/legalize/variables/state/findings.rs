@@ -12,6 +12,8 @@ use crate::text::Span;
 pub(super) enum Finding {
     /// The target does not have it; with what the source's table notes of it, and the setting by which it may be another one there.
     Missing(Sys, Option<String>, Option<String>),
+    /// A variable that only the source's control has, by its name, with what the table notes of it.
+    Own(String, Option<String>),
     /// A variable of the target, by the name of its fact.
     Unconfirmed(Sys, String, String),
     Renumbered(String),
@@ -26,6 +28,14 @@ pub(super) enum Finding {
     /// What the tables hold as far as it is stated, which a block that writes them rests on.
     TablesHold,
 }
+
+/// What stands in the table of a lathe's tool offsets.
+fn is_of_turret(state: Sys) -> bool {
+    matches!(state, Sys::LatheX | Sys::LatheY | Sys::LatheZ | Sys::LatheRadius | Sys::LatheTip)
+}
+
+const TURRET: &str = "no page that was read says which variables of this lathe hold its tool offsets: write the offset with G10, or let the \
+                      operator put it into the table";
 
 impl Finding {
     /// Reports it.
@@ -46,8 +56,15 @@ impl Finding {
                 let help = "if the position that its programs read is in these coordinates, write 'position.frame = \"machine\"' \
                             under [behaviours] in the machine profile of the target";
                 let help = note.or_else(|| may_be_in_frame(state, context.target).then(|| help.to_owned()));
+                let help = help.or_else(|| is_of_turret(state).then(|| TURRET.to_owned()));
                 let finding = if let Some(help) = help { finding.with_help(help) } else { finding };
                 context.add(index, if let Some(name) = setting { finding.lacking(name) } else { finding });
+            }
+            Finding::Own(variable, note) => {
+                let note = note.map(|note| format!(" ({note})")).unwrap_or_default();
+                let what = format!("no variable of {title} is known to hold what {variable}{note} holds");
+                let help = "write the number that is meant in its place, or take out what reads or sets it";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
             }
             Finding::ReadOnly(state) => {
                 let what = format!("{title} cannot write '{state}'");
