@@ -212,7 +212,7 @@ fn machine_part(source: &mut Source) -> &'static str {
         "G55 G0 X60. Z1.\nG1 W-2. F.1\nG54",
         "G10 L2 P2 Z-40.\nG55 G0 X60. Z1.\nG54",
         "G0\nG53 X-50.\nG28 W0\nG28 U0",
-        "G30 U0 W0\nG0 X60. W5.",
+        "G30 U0 W0\nG0 X60.\nW5.",
         "G28 U10. W5.\nG28 H0",
         "T0202 M6\nG0 X60. Z1.\nT0200",
         "T101\nG0 X60. Z-1. T0404\nT0404 G1 X58. F.2",

@@ -4,7 +4,8 @@
 //! that only a lathe has; Y, a length offset and a change by M6 are signs of a mill. What a lathe program calls, what
 //! calls it and what stands in its file are a lathe's too, unless their own text is a mill's. What both kinds lead to may
 //! be for either. A program without NC words does the same on both machines. A program without any sign follows the rest
-//! of its library, if no program there is a mill's. If the library has programs of both kinds, nobody can tell: it is refused too.
+//! of its library, if no program there is a mill's. If the library has programs of both kinds and
+//! the program a code that means something else on a lathe (G90, G92, G94, G98), nobody can tell: it is refused too.
 //! A machine profile may say `machine = "mill"`. Then only what no mill has is a sign, and only programs that are linked
 //! with such a program go with it.
 
@@ -137,7 +138,7 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
         let seen = match (lathe[at], mill[at]) {
             (Some(seen), None) => Some(seen),
             (None, None) if open && mill.iter().all(Option::is_none) => Some(first),
-            (None, None) if open && moves(&module.programs[at]) => None,
+            (None, None) if open && may_turn(&module.programs[at]) => None,
             _ => continue,
         };
         if !names_machine(&module.programs[at]) || found.iter().any(|d| d.code == Code::LatheProgram) {
@@ -169,10 +170,14 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
 const EITHER: &str =
     "the library has programs of lathes and of mills, and nothing in this one shows which of them it is for";
 
-/// True where a program moves along X or Z, which are a diameter and the way along the spindle on a lathe.
-fn moves(program: &Program) -> bool {
-    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if has(nc, Role::X) || has(nc, Role::Z)))
+/// True where a program moves along X or Z, and has a code that is a cut or a mode of another kind on a lathe.
+fn may_turn(program: &Program) -> bool {
+    let ncs = || program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+    let other = |op: Op| {
+        use Op::*;
+        matches!(op, Absolute | SetPosition | FeedPerMinute | ReturnInitial | ReturnR) || op.is_cycle()
+    };
+    ncs().any(|nc| has(nc, Role::X) || has(nc, Role::Z)) && ncs().any(|nc| nc.ops().any(other))
 }
 
 /// Adds how a folder with the programs of two machines is converted.
@@ -286,11 +291,12 @@ mod tests {
         // A macro that only computes is for any machine.
         assert_eq!(lathes(FANUC, &[TURNS, "O2\n#500=#500+1\nM99\n"]), [true, false]);
         let other = "O3\nG1 X40. F100.\nM30\n";
-        // Without any sign it follows the folder. Where that has mill programs too, nobody can tell.
+        // Without any sign it follows the folder. Where that has mill programs too, a code that is a cut on a lathe may be one.
         assert_eq!(lathes(FANUC, &[TURNS, other]), [true, true]);
         let mills = MILLS.replace("M98 P2\n", "");
-        assert_eq!(lathes(FANUC, &[TURNS, other, &mills]), [true, true, false]);
-        assert_eq!(lathes(FANUC, &[TURNS, "O3\nG4 P500\nM30\n", &mills]), [true, false, false]);
+        assert_eq!(lathes(FANUC, &[TURNS, other, &mills]), [true, false, false]);
+        let pass = "O3\nG90 X40. Z-10. F.2\nX38.\nM99\n";
+        assert_eq!(lathes(FANUC, &[TURNS, pass, &mills]), [true, true, false]);
         assert_eq!(lathes(FANUC, &[&format!("{TURNS}{other}"), MILLS]), [true, true, false]);
     }
 
