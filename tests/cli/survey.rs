@@ -114,7 +114,7 @@ fn a_survey_asks_where_holes_end_and_for_the_letters_of_the_target() {
         )
     };
     let holes = "O1\nG90 G95 G54\nT0101\nG0 X0. Z5.\nG83 Z-20. R-3. F.1\nG80\nM30\n";
-    let steps = "O2\nT0101\nG0 X50. Z#500\nG1 X60. W-5. F.2\nM30\n";
+    let steps = "O2\nT0101\nG0 X#501 Z#500\nG1 X60. W-5. F.2\nM30\n";
     let shop = Shop::with(&[
         ("b/a.nc", holes),
         ("a/b.nc", steps),
