@@ -15,7 +15,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, STEP_LETTERS};
 use crate::ir::analysis::calls_of;
 use crate::ir::analysis::over_calls::called;
-use crate::ir::{Call, Callee, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{Call, Callee, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, ModalFacts};
 use crate::text::Span;
