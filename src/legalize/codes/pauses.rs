@@ -9,8 +9,9 @@
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
 mod after;
+mod kinds;
 
-use crate::canon::{Group, Op, Pause, Role, Running, Sys};
+use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::CallGraph;
@@ -20,6 +21,8 @@ use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use after::After;
+pub(in crate::legalize) use kinds::pause_of;
+use kinds::{ends_run, restarts, stops_in, tool_after, written};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
@@ -140,16 +143,6 @@ fn lost(module: &Module, source: &Control) -> [bool; 2] {
     })
 }
 
-/// True where the run ends, be it that the text of the program does.
-fn ends_run(kind: &TermKind) -> bool {
-    matches!(kind, TermKind::End { .. } | TermKind::Stray)
-}
-
-/// True for a block with a stop, or at whose end the run ends.
-fn stops_in(block: &Block) -> bool {
-    ends_run(&block.term.kind) || block.stmts.iter().any(|stmt| pause_of(&stmt.kind).is_some())
-}
-
 /// Puts what ends something before the stops of a block, and after them what is started again.
 fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>, again: &[(usize, Op)]) {
     let more = before.values().map(Vec::len).sum::<usize>() + before.len() + again.len();
@@ -216,40 +209,6 @@ fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Stmts) {
         out.push(Stmt { kind: nc(vec![NcItem::Op(op)]), site: SourceInfo { sequence, ..site.clone() } });
     }
     out.push(stmt);
-}
-
-/// The kind of stop that a statement is, and whether it may be switched off. A question stops like a message.
-pub(in crate::legalize) fn pause_of(kind: &StmtKind) -> Option<(Pause, bool)> {
-    match kind {
-        StmtKind::StopMessage { .. } | StmtKind::Input { .. } => Some((Pause::Message, false)),
-        StmtKind::Nc(nc) if nc.has(Op::Stop) => Some((Pause::Stop, false)),
-        StmtKind::Nc(nc) if nc.has(Op::OptionalStop) => Some((Pause::Stop, true)),
-        StmtKind::Nc(nc) if nc.has(Op::ToolChange) => Some((Pause::Change, false)),
-        _ => None,
-    }
-}
-
-/// The tool in the spindle after a statement, where it is known; a call may change it.
-fn tool_after(kind: &StmtKind, before: Option<f64>) -> Option<f64> {
-    match kind {
-        StmtKind::Nc(nc) if nc.has(Op::ToolChange) => nc.word(Role::Tool)?.constant(),
-        StmtKind::Nc(nc) if nc.items.iter().any(|item| matches!(item, NcItem::Code(..))) => None,
-        StmtKind::Nc(_) | StmtKind::Assign { .. } => before,
-        _ => None,
-    }
-}
-
-/// True for a block that changes the tool and then starts it.
-fn restarts(kind: &StmtKind, running: Running) -> bool {
-    matches!(kind, StmtKind::Nc(nc) if nc.has(Op::ToolChange) && starts(running).iter().any(|op| nc.has(*op)))
-}
-
-/// The kind of stop that is written for one: a message is a program stop on a control that has none.
-fn written(pause: Pause, target: &Control) -> Pause {
-    match pause {
-        Pause::Message if target.system_runs(Sys::StopMessage).next().is_none() => Pause::Stop,
-        pause => pause,
-    }
 }
 
 /// A place in a program.
