@@ -128,8 +128,12 @@ impl Verifier<'_, '_> {
         let all = |word: fn(&Start) -> &'static str| {
             states.iter().map(|state| word(state)).collect::<Vec<_>>().join(", ")
         };
+        let begins = match is_moved_on(self.job.source, self.job.target, states) {
+            true => ". If none is in force when it is started, give its profile a [start]",
+            false => "",
+        };
         let text = format!(
-            "the source depends on {} at its start: started {}, the target does something else ({what})",
+            "the source depends on {} at its start: started {}, the target does something else ({what}){begins}",
             all(|state| state.noun),
             all(|state| state.words),
         );
@@ -179,16 +183,24 @@ impl Verifier<'_, '_> {
             Err(None) => Found::Nothing,
             Err(Some(difference)) if self.rests_on_start(scenario, &run, difference.source) => {
                 let resets = states.iter().all(|state| state.resets || state.ends && !self.returns);
-                match resets && self.target_rests(scenario, &other, there) {
+                let [source, target] = [self.job.source, target];
+                let begins = is_moved_on(source, target, states)
+                    && !source.control.start().is_empty()
+                    && !self.returns;
+                match begins || resets && self.target_rests(scenario, &other, there) {
                     true => Found::Granted,
                     false => Found::Rests(difference.what),
                 }
             }
             // What a machine begins in leaves no tool length in force.
-            Err(Some(_)) if self.is_moved_there(states) && !target.control.start().is_empty() => {
+            Err(Some(_))
+                if is_moved_on(target, self.job.source, states) && !target.control.start().is_empty() =>
+            {
                 Found::Granted
             }
-            Err(Some(difference)) if self.is_moved_there(states) => Found::RestsThere(difference.what),
+            Err(Some(difference)) if is_moved_on(target, self.job.source, states) => {
+                Found::RestsThere(difference.what)
+            }
             Err(Some(difference)) => {
                 self.witnessed(&pair, &difference);
                 let started: Vec<&str> = states.iter().map(|state| state.words).collect();
@@ -200,12 +212,6 @@ impl Verifier<'_, '_> {
             }
         };
         (found, upto)
-    }
-
-    /// True for a tool length alone, whose codes move its axis on the target and not on the source.
-    fn is_moved_there(&self, states: &[&Start]) -> bool {
-        let moves = |side: &Side<'_>| side.control.is(Question::LengthMoves);
-        states.iter().all(|state| state.name == "length") && moves(self.job.target) && !moves(self.job.source)
     }
 
     /// True where the source does something else than after power-on, before or when a difference shows.
@@ -258,6 +264,12 @@ impl Verifier<'_, '_> {
         let mut all = self.job.assumptions.get(&self.program).into_iter().flatten();
         state.name == UNIT.name && all.any(|assumption| assumption.predicate == Predicate::Unit)
     }
+}
+
+/// True for a tool length alone, whose codes move its axis on one side and not on the other.
+fn is_moved_on(side: &Side<'_>, other: &Side<'_>, states: &[&Start]) -> bool {
+    let moves = |side: &Side<'_>| side.control.is(Question::LengthMoves);
+    states.iter().all(|state| state.name == "length") && moves(side) && !moves(other)
 }
 
 /// True where the control stopped the program, so that it says nothing of what comes after.

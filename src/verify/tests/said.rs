@@ -90,3 +90,23 @@ fn a_settled_tool_word_is_no_question() {
     let open = format!("{CC100}[behaviours]\ntool.word.again = \"skipped\"\n");
     assert!(!asked(&open));
 }
+
+/// G49 of a Fanuc with parameter 5006.6 at 0 moves Z if a length is in force; a Haas moves nothing. A machine whose profile
+/// says what it begins in begins without a length; of a program that returns its callers may have one in force.
+#[test]
+fn a_length_that_no_start_leaves_is_no_question() {
+    let moves = format!("{FANUC}[parameters]\n5006.6 = \"0\"\n");
+    let begins = format!("{moves}[start]\ncodes = \"G90\"\n");
+    let haas = "dialect = \"haas\"\nunits = \"metric\"\n";
+    let text = |end: &str| {
+        format!("O1\nG21G90G17G40G49G80G94G98G54\nM5M9\nG0X0.Y0.\nG43H1Z5.\nG1Z-1.F100.\nG0Z50.\n{end}\n")
+    };
+    let asks = |profile: &str, end: &str| {
+        let (outcome, what) = judged([profile, haas], &text(end), &text(end));
+        assert_ne!(outcome, Outcome::Different, "{what}");
+        what.contains("the tool length in force at its start")
+    };
+    assert!(asks(&moves, "M30"));
+    assert!(!asks(&begins, "M30"));
+    assert!(asks(&begins, "M99"));
+}
