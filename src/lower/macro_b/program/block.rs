@@ -14,12 +14,19 @@ const LONG_NUMBERS: &str = "if its numbers have eight digits, which is an option
 
 const NEVER_RUN: &str = "this block cannot be read, and no run comes to it: it is left out";
 
-/// True for a block that nothing can name: beside its comments its text has no letter of a number, of a program or of a loop.
+/// True for a block that nothing can name: beside its comments its text has no number of a block, of a program or of a loop.
 fn is_unnamed(text: &[u8]) -> bool {
     let mut in_comment = false;
-    !text.iter().any(|byte| {
+    !text.iter().enumerate().any(|(at, byte)| {
         in_comment = if in_comment { *byte != b')' } else { *byte == b'(' };
-        !in_comment && matches!(byte.to_ascii_uppercase(), b'N' | b'O' | b':' | b'D' | b'%' | b'<')
+        let after = text[at + 1..].trim_ascii_start().first();
+        let numbers = after.is_some_and(|after| after.is_ascii_digit() || matches!(after, b'#' | b'['));
+        let names = match byte.to_ascii_uppercase() {
+            b'N' | b'O' | b':' | b'D' => numbers,
+            b'%' | b'<' => true,
+            _ => false,
+        };
+        !in_comment && names
     })
 }
 
