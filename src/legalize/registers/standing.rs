@@ -2,11 +2,13 @@
 //!
 //! Law: a program that stands in the target's machine knows common variables by the numbers that the source knows them
 //! by. Side condition: each that it may share with the library keeps its number, and nothing that the conversion keeps in
-//! between lies in one of its own. Counter-example: `#714` that becomes `#109`, and `O9810`, which reads `#714`.
+//! between lies in one of its own. A number that the target does not have is known by none there: what such a program shares under
+//! another one is asked once. Counter-example: `#714` that becomes `#109`, and `O9810`, which reads `#714`.
 
 use super::names::name_of;
 use super::outside::{Moved, in_words, is_shared, named, read, written_by};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
 use crate::ir::{Module, Var};
 use crate::legalize::Context;
 use crate::legalize::calls::standing;
@@ -37,6 +39,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
+/// True where the target has a variable of the number that the source knows this one by.
+fn has_number(target: &Control, (_, (name, number), _): &Moved) -> bool {
+    let number = number.filter(|_| target.numbered().is_some_and(|space| space == name));
+    number.is_some_and(|number| target.numbered_class(number).is_some())
+}
+
 /// Variables that have another number: of programs that run with such a one each is for review, of the others it is
 /// asked once.
 fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Context<'_>) {
@@ -55,6 +63,20 @@ fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Conte
                 Some(named(var, &name, register))
             });
             moves.extend(there.clone());
+        }
+        let (moves, lacking): (Vec<Moved>, Vec<Moved>) =
+            moves.into_iter().partition(|moved| has_number(context.target, moved));
+        if !lacking.is_empty() {
+            let what = format!(
+                "programs that stand on the target cannot know these variables by their numbers, which it does not \
+                 have, and here {}: one that shares such a variable must use the same register",
+                in_words(&lacking)
+            );
+            let help = "look which registers they use; the target's profile says which ones programs must not be given \
+                        ('reserved')";
+            let finding =
+                Diagnostic::new(Code::Conditional, module.programs[index].site.span, what).with_help(help);
+            context.add(index, finding.asked_once());
         }
         if moves.is_empty() {
             continue;
