@@ -712,3 +712,11 @@ fn places_take_what_the_manuals_say() {
     assert_eq!(takes(&cc100, Jump), [false, true, true]);
     assert_eq!((cc100.limit("operators"), cc100.names().program.as_deref()), (Some(1), None));
 }
+
+/// Fixture offsets E0 to E48 of the Fadal (manual of 2003, p. 231): from 7 on they are additional ones.
+#[test]
+fn a_word_says_which_common_numbers_it_has() {
+    let fadal = control("fadal");
+    assert_eq!(fadal.numbers_of(None, Role::WorkOffset).as_deref(), Some("0 to 6 and 101 to 142"));
+    assert_eq!(fadal.numbers_of(None, Role::Feed), None);
+}

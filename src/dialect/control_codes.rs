@@ -181,7 +181,8 @@ impl Control {
         (!ranged).then_some(value)
     }
 
-    /// The common numbers that the word has beside a code, as `0 to 6 and 101 to 142`; none where it has all.
+    /// The common numbers that the word has beside a code, as `0 to 6 and 101 to 142`. No text, if it has all of
+    /// them.
     pub fn numbers_of(&self, code: Option<&CodeMeaning>, role: Role) -> Option<String> {
         let range = |shift: &super::Shift| {
             let [first, last] = [shift.first, shift.last].map(|number| i64::from(number) + shift.add);

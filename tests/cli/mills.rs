@@ -77,3 +77,27 @@ fn an_exact_stop_of_one_block_that_is_left_out_is_no_difference() {
     assert!(run.err.contains("exact stop at the end of a block is dropped"), "{}{}", run.out, run.err);
     assert!(!run.out.contains("REFUSED") && !run.err.contains("MG0801"), "{}{}", run.out, run.err);
 }
+
+/// No program begins in a drilling cycle: one that ends in it loses nothing where the target ends it before its end.
+#[test]
+fn a_program_that_ends_in_a_cycle_is_converted() {
+    let program = format!("O1\n{HEAD}\nG0 X0. Y0. Z25.\nG98 G81 X10. Z-10. R10. F100.\nX20.\nM30\n");
+    let shop = Shop::with(&[("a.nc", &program), ("f.toml", FANUC)]);
+    let run = shop.run("convert a.nc --from fanuc --to fadal --machine f.toml");
+    let said = format!("{}{}", run.out, run.err);
+    assert!(said.contains("1 verified") && !said.contains("the exit state differs"), "{said}");
+}
+
+/// A Fanuc has no #10000, so O9003, which stands there, cannot know it by that number; #150 it has.
+#[test]
+fn a_number_that_the_target_lacks_is_known_by_no_program_there() {
+    let outcome = |variable: &str, more: &str| {
+        let program = format!("O1\n{HEAD}\n{variable}=5.\nG65 P9003 A1.\nG0 X{variable}\nM30\n");
+        convert("--from haas --to fanuc", &program, ("", &format!("programs = [\"O9003\"]\n{more}")))
+    };
+    let said = outcome("#10000", "reserved = []\n");
+    assert!(said.contains("1 converted") && said.contains("#10000 is #"), "{said}");
+    // A shop that keeps #150 to itself makes the conversion take another one, which O9003 may know.
+    let said = outcome("#150", "reserved = [\"#150\"]\n");
+    assert!(said.contains("1 for review") && said.contains("#150 is #"), "{said}");
+}

@@ -146,7 +146,7 @@ Write the system into the machine profile: 'gcode_system' under [settings]. The 
 Convert what one path does alone, as a program of its own, without the blocks that wait. If the code means something else on this machine, say so in the machine profile: [[site]]."
 
     "0358" NeverRun Note "a block that cannot be read is never run"
-"The block stands after the end of the program, or after a jump, and no sequence number stands between. So no run comes to it, and the program does the same without it. The conversion leaves it out.
+"The block comes after the end of the program, or after a jump, with no sequence number in between. The machine never gets to it, and the program does the same without it. The conversion leaves it out.
 
 Correct the block or take it out, if it is meant to be run."
         }

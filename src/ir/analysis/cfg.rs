@@ -230,7 +230,7 @@ pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
 }
 
 /// The blocks that calls of this program enter, modal ones included.
-pub(super) fn entries(program: &Program) -> impl Iterator<Item = BlockId> + '_ {
+pub fn entries(program: &Program) -> impl Iterator<Item = BlockId> + '_ {
     let called = program.blocks.iter().filter_map(|block| own_call(block).map(|(entry, ..)| entry));
     modal_bodies(program).chain(called)
 }

@@ -27,7 +27,7 @@ mod vacancy;
 mod values;
 
 pub use call_graph::CallGraph;
-pub use cfg::{Cfg, may_come_back, modal_bodies, own_call, reachable};
+pub use cfg::{Cfg, entries, may_come_back, modal_bodies, own_call, reachable};
 pub use effects::{Seen, Summaries, Vars};
 pub use live_statics::{LiveStatics, statics};
 pub use liveness::{Liveness, Transfer, Ways, live_after};

@@ -31,6 +31,20 @@ pub(in crate::legalize) fn are_mills(context: &Context<'_>) -> bool {
         && !context.source.is_same_machine(context.target)
 }
 
+/// True if the library names tool lengths, and their codes are known to move the axis on `mover` and not on `other`.
+pub(in crate::legalize) fn moves_on_one(
+    features: &Features,
+    context: &Context<'_>,
+    [mover, other]: [&Control; 2],
+) -> bool {
+    let moves = |control: &Control| control.is(Question::LengthMoves);
+    are_mills(context)
+        && moves(mover)
+        && !moves(other)
+        && other.behaviour(Question::LengthMoves).is_none_or(|row| row.value != "unknown")
+        && (features.any_op(|op| op.group() == Group::LengthComp) || features.role(Role::LengthOffset))
+}
+
 /// Says what programs rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = facts_from_reset(module, context);

@@ -62,7 +62,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
-/// The dwells whose time is a variable that has a value there, whatever run comes to it.
+/// The dwells whose time is a variable that always has a value there.
 fn times_that_are_set(program: &Program, summaries: &Summaries) -> Vec<Span> {
     let by_variable = |stmt: &Stmt| {
         let vacant = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.may_be_vacant());

@@ -2,7 +2,9 @@
 
 use super::straight::goes_on_to;
 use crate::canon::{Group, Op, Role};
-use crate::ir::{BlockId, Callee, Expr, Program, StmtKind, TermKind};
+use crate::ir::analysis::dataflow::reached_among;
+use crate::ir::analysis::entries;
+use crate::ir::{BlockId, Expr, Program, StmtKind};
 use crate::legalize::{Modal, ModalFacts};
 use std::collections::BTreeMap;
 
@@ -64,19 +66,9 @@ fn cycles(program: &Program, index: usize, facts: &ModalFacts) -> BTreeMap<u32, 
 
 /// For each block, whether any way leads to it from where the program begins, or where a call comes in.
 pub fn reached(program: &Program) -> Vec<bool> {
-    let mut found = vec![false; program.blocks.len()];
-    let called = program.blocks.iter().filter_map(|block| match &block.term.kind {
-        TermKind::Call { call, .. } => match call.callee {
-            Callee::Block(entry) => Some(entry),
-            _ => None,
-        },
-        _ => None,
-    });
-    let mut open: Vec<BlockId> = called.chain([BlockId(0)]).collect();
-    while let Some(at) = open.pop() {
-        let Some(found) = found.get_mut(at.index()).filter(|found| !**found) else { continue };
-        *found = true;
-        open.extend(program.blocks.get(at.index()).into_iter().flat_map(|b| b.term.kind.successors()));
-    }
-    found
+    let begins = entries(program).chain([BlockId(0)]).map(BlockId::index);
+    reached_among(program.blocks.len(), begins, |at, go| {
+        let block = program.blocks.get(at).into_iter();
+        block.flat_map(|block| block.term.kind.successors()).for_each(|to| go(to.index()));
+    })
 }

@@ -57,7 +57,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 const UNTOLD: &str = "an M code in a drilling block stays, and neither profile says that it clamps the C axis for the hole: make sure that both machines do \
                       the same by it";
 const UNTOLD_HELP: &str = "if it does, give its number as \"5110\" under [parameters] of both profiles, and name it and the code of the next number under \
-                           [[site]] in both";
+                           [[site]] in both; if no code clamps there, write \"5110\" = \"0\" into both";
 const ONE_CLAMPS: &str = "this code clamps the C axis for the hole of its block on one of the two machines alone: parameter 5110 is given in one profile, or \
                           the codes of the two have other names";
 const ONE_CLAMPS_HELP: &str = "give 5110 under [parameters] of both profiles, and that code and the next one the same names under [[site]] in both";

@@ -38,7 +38,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         let straight = entered_straight(program);
         // Whether the cycle in force began at its plane on the target.
         let mut lowered = None;
-        // The way back up from the plane of such a cycle, and none of another one.
+        // The way from the plane of such a cycle back to where it began, if that is known.
         let mut back: Option<Option<Nc>> = None;
         let mut returns = Vec::new();
         for ((id, block), straight) in program.ids().zip(&mut program.blocks).zip(straight) {
@@ -179,8 +179,11 @@ fn is_last(rest: &[Stmt], state: &Modal) -> bool {
     false
 }
 
-/// The move from the plane of a cycle to where it began: none inside if both are one place, and none at all if that is not known.
+/// The move from the plane of a cycle to where it began: an empty one if both are one place. Nothing, if that is not known.
 fn way_back(nc: &Nc) -> Option<Option<Nc>> {
+    if nc.word(Role::CycleR).is_some() {
+        return None;
+    }
     let r = nc.word(Role::CycleRStep).map_or(Some(0.0), Expr::constant)?;
     let side = nc.ops().any(Op::is_side_hole);
     let (role, by) = if side { (Role::StepX, -2.0 * r) } else { (Role::StepZ, -r) };

@@ -1,6 +1,7 @@
 //! Where the tool of a lathe stands where ways of a program meet: as far as all of them agree.
 
 use super::place::Place;
+use crate::ir::analysis::entries;
 use crate::ir::{BlockId, Callee, Module, Program, TermKind};
 
 /// True where a program may be gone on in at any of its sequence numbers, from outside.
@@ -21,14 +22,7 @@ pub fn at_blocks(program: &Program, begin: Place, is_entered: bool) -> Vec<Place
     }
     let mut known: Vec<Option<Place>> = vec![None; program.blocks.len()];
     let mut open = Vec::new();
-    let called = program.blocks.iter().filter_map(|block| match &block.term.kind {
-        TermKind::Call { call, .. } => match call.callee {
-            Callee::Block(entry) => Some(entry),
-            _ => None,
-        },
-        _ => None,
-    });
-    for entry in called.chain([BlockId(0)]) {
+    for entry in entries(program).chain([BlockId(0)]) {
         come(&mut known, &mut open, entry, begin);
     }
     // What is known of a block only gets less, so this ends.

@@ -7,21 +7,15 @@
 //! `G91 Z-5.`, which goes down by 5 from where the tool stands, and by the length too where its code stands beside it.
 
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{Control, Question};
 use crate::ir::{Bank, Block, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
-use crate::legalize::assumptions::shop::{are_mills, moves_by_code, names_length};
+use crate::legalize::assumptions::shop::{moves_by_code, moves_on_one, names_length};
 use crate::legalize::features::Features;
 use crate::legalize::moves::mains::facts_from_reset;
 use crate::legalize::{Context, Modal};
 
 /// True if the library names tool lengths, and their codes move the axis on the target alone.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let moves = |control: &Control| control.is(Question::LengthMoves);
-    are_mills(context)
-        && moves(context.target)
-        && !moves(context.source)
-        && context.source.behaviour(Question::LengthMoves).is_none_or(|row| row.value != "unknown")
-        && (features.any_op(|op| op.group() == Group::LengthComp) || features.role(Role::LengthOffset))
+    moves_on_one(features, context, [context.target, context.source])
 }
 
 /// Puts the codes beside the moves.

@@ -7,21 +7,15 @@
 
 use super::later_lengths::{goes, is_quiet, reads_state, stands};
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{Control, Question};
 use crate::ir::{Block, Expr, Module, Nc, NcItem, Stmt, StmtKind};
-use crate::legalize::assumptions::shop::{are_mills, moves_by_code};
+use crate::legalize::assumptions::shop::{moves_by_code, moves_on_one};
 use crate::legalize::features::Features;
 use crate::legalize::moves::mains::facts_from_reset;
 use crate::legalize::{Context, Modal};
 
 /// True if the library names tool lengths, and their codes move the axis on the source alone.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let moves = |control: &Control| control.is(Question::LengthMoves);
-    are_mills(context)
-        && moves(context.source)
-        && !moves(context.target)
-        && context.target.behaviour(Question::LengthMoves).is_none_or(|row| row.value != "unknown")
-        && (features.any_op(|op| op.group() == Group::LengthComp) || features.role(Role::LengthOffset))
+    moves_on_one(features, context, [context.source, context.target])
 }
 
 /// Puts the places beside the codes.

@@ -68,12 +68,12 @@ fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Conte
             moves.into_iter().partition(|moved| has_number(context.target, moved));
         if !lacking.is_empty() {
             let what = format!(
-                "programs that stand on the target cannot know these variables by their numbers, which it does not \
-                 have, and here {}: one that shares such a variable must use the same register",
+                "{}, as the target has no variables of these numbers: a program that stands there, and shares one of \
+                 them with this program, must use the new number",
                 in_words(&lacking)
             );
-            let help = "look which registers they use; the target's profile says which ones programs must not be given \
-                        ('reserved')";
+            let help = "look which variables that program uses; 'reserved' in the target's profile says which ones this conversion \
+                        must not take";
             let finding =
                 Diagnostic::new(Code::Conditional, module.programs[index].site.span, what).with_help(help);
             context.add(index, finding.asked_once());

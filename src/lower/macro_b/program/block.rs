@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 
 const LONG_NUMBERS: &str = "if its numbers have eight digits, which is an option, write program_digits = \"8\" under [settings] of its profile";
 
-const NEVER_RUN: &str = "this block cannot be read, and no run comes to it: it is left out";
+const NEVER_RUN: &str = "this block cannot be read, and the machine never gets to it: it is left out";
 
 /// True for a block that nothing can name: beside its comments its text has no number of a block, of a program or of a loop.
 fn is_unnamed(text: &[u8]) -> bool {
