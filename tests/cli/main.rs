@@ -3,6 +3,7 @@
 
 mod accepting;
 mod accepting_once;
+mod browser;
 mod builders;
 mod callees;
 mod check;
@@ -10,6 +11,8 @@ mod commands;
 mod diff;
 #[path = "../support/files.rs"]
 mod files;
+#[cfg(unix)]
+mod git;
 mod help;
 mod hostile;
 mod inputs;
@@ -19,12 +22,19 @@ mod lathes;
 mod locks;
 mod mills;
 mod outputs;
+#[cfg(unix)]
+mod pre_commit;
 mod profiles;
 mod project;
+mod python;
+#[cfg(unix)]
+mod readme;
 mod reports;
 mod sarif;
 mod shown;
 mod stale;
+#[path = "../support/mod.rs"]
+mod support;
 mod survey;
 
 use assert_cmd::Command;

@@ -5,15 +5,11 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::sync::{Mutex, MutexGuard};
 use std::time::Duration;
 use tempfile::TempDir;
 
 const HOW: &str = "the tests of reports need a browser: `apt-get install chromium chromium-driver`, or name chromedriver in \
                    CHROMEDRIVER and the browser in CHROMIUM";
-
-/// One browser at a time: several are more than a small machine takes.
-static ONE: Mutex<()> = Mutex::new(());
 
 /// What WebDriver calls an element.
 const ELEMENT: &str = "element-6066-11e4-a52e-4f735466cecf";
@@ -23,12 +19,10 @@ pub struct Browser {
     port: u16,
     session: String,
     _home: TempDir,
-    _one: MutexGuard<'static, ()>,
 }
 
 impl Browser {
     pub fn start() -> Self {
-        let one = ONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let driver = std::env::var("CHROMEDRIVER").unwrap_or_else(|_| "chromedriver".into());
         let started =
             Command::new(&driver).arg("--port=0").stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
@@ -39,7 +33,7 @@ impl Browser {
             .find_map(|line| line.split("successfully on port ").nth(1)?.trim_end_matches('.').parse().ok());
         let home = TempDir::new().unwrap();
         let port = port.unwrap_or_else(|| panic!("chromedriver named no port; {HOW}"));
-        let mut browser = Self { driver, port, session: String::new(), _home: home, _one: one };
+        let mut browser = Self { driver, port, session: String::new(), _home: home };
         let folder = format!("--user-data-dir={}", browser._home.path().display());
         let mut options = json!({ "args": [
             "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",

@@ -1,10 +1,7 @@
 //! What the README says to type works, and what it shows is so.
-#![cfg(unix)]
 
-mod support;
-
+use crate::support::{root, text};
 use std::process::Command;
-use support::{root, text};
 
 /// The lines of the fenced blocks of a language.
 fn fenced(markdown: &str, language: &str) -> Vec<String> {

@@ -1,11 +1,8 @@
 //! The recipes of `docs/git.md`, each typed with git in a repository of its own.
-#![cfg(unix)]
 
-mod support;
-
+use crate::support::text;
 use std::path::Path;
 use std::process::{Command, Output};
-use support::text;
 use tempfile::TempDir;
 
 /// A main program, and a subprogram that it calls.

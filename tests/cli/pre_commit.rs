@@ -1,50 +1,17 @@
 //! The hooks of `.pre-commit-hooks.yaml`, run by pre-commit itself in a repository of its own, and the wheel that a hook
 //! in Python installs.
-#![cfg(unix)]
 
-mod support;
-
+use crate::python;
+use crate::support::{root, text};
 use macroglot::dialect::{Entry, registry};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::OnceLock;
-use support::{root, text};
 use tempfile::TempDir;
 
 const PROJECT: &str = "[machines.fv]\ndialect = \"fanuc\"\n\n[machines.vf2]\ndialect = \"haas\"\n\n\
                        [libraries.mill]\npath = \"programs\"\nmachine = \"fv\"\n\n[libraries.mill.targets]\n\
                        vf2 = \"haas\"\n\n[checks]\nround_trip = [\"vf2\"]\n";
 const SOUND: &str = "O1000\nG21 G17 G90 G40 G80 G94 G54\nG0 X1.\nM30\n";
-
-/// Python with pre-commit and maturin, installed once for all tests from its registry.
-fn tools() -> &'static Path {
-    static TOOLS: OnceLock<PathBuf> = OnceLock::new();
-    TOOLS.get_or_init(|| {
-        let wanted = text("tests/support/python.txt");
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python-tools");
-        let done = folder.join("installed.txt");
-        if std::fs::read_to_string(&done).is_ok_and(|installed| installed == wanted) {
-            return folder;
-        }
-        let python = Command::new("python3").args(["-m", "venv", "--clear"]).arg(&folder).output();
-        let why = "this test needs Python 3.9 or later with venv: install it";
-        assert!(python.is_ok_and(|python| python.status.success()), "{why}");
-        let pip = Command::new(folder.join("bin/pip"))
-            .args(["install", "--quiet", "--disable-pip-version-check", "-r"])
-            .arg(root().join("tests/support/python.txt"))
-            .output();
-        said(&pip.unwrap(), "pip install");
-        std::fs::write(&done, wanted).unwrap();
-        folder
-    })
-}
-
-fn said(output: &Output, what: &str) -> String {
-    let all = [&output.stdout[..], &output.stderr].concat();
-    let all = String::from_utf8_lossy(&all).into_owned();
-    assert!(output.status.success(), "{what}: {:?}\n{all}", output.status);
-    all
-}
 
 /// A shop's repository, with the hooks installed.
 struct Shop {
@@ -58,7 +25,7 @@ impl Shop {
         let path = format!(
             "{}:{}:{}",
             Path::new(env!("CARGO_BIN_EXE_macroglot")).parent().unwrap().display(),
-            tools().join("bin").display(),
+            python::tools().display(),
             std::env::var("PATH").unwrap()
         );
         let shop = Self { room: TempDir::new().unwrap(), path };
@@ -75,7 +42,7 @@ impl Shop {
             "git commit -q -m programs",
             "pre-commit install",
         ] {
-            said(&shop.run(line), line);
+            python::said(&shop.run(line), line);
         }
         shop
     }
@@ -98,7 +65,7 @@ impl Shop {
 
     /// A commit that the hooks let through, and what they said.
     fn commits(&self, line: &str) -> String {
-        said(&self.run(line), line)
+        python::said(&self.run(line), line)
     }
 
     /// A commit that the hooks stop, and what they said.
@@ -119,11 +86,11 @@ fn hooks() -> String {
 
 #[test]
 fn the_hooks_are_what_pre_commit_takes() {
-    let checked = Command::new(tools().join("bin/pre-commit"))
+    let checked = Command::new(python::tools().join("pre-commit"))
         .args(["validate-manifest", ".pre-commit-hooks.yaml"])
         .current_dir(root())
         .output();
-    said(&checked.unwrap(), "pre-commit validate-manifest");
+    python::said(&checked.unwrap(), "pre-commit validate-manifest");
     // The files that folders are read for are those that the hooks are given.
     let hooks = text(".pre-commit-hooks.yaml");
     for ending in registry::all().iter().flat_map(Entry::endings) {
@@ -251,20 +218,20 @@ fn packed() -> TempDir {
 fn a_wheel_installs_and_a_hook_in_python_runs_it() {
     let wheels = TempDir::new().unwrap();
     let crate_folder = packed();
-    let built = Command::new(tools().join("bin/maturin"))
+    let built = Command::new(python::tools().join("maturin"))
         .args(["build", "--profile", "dev", "--quiet", "--out"])
         .arg(wheels.path())
         .current_dir(crate_folder.path())
         .env("CARGO_TARGET_DIR", crate_folder.path().join("target"))
         .output();
-    said(&built.unwrap(), "maturin build");
+    python::said(&built.unwrap(), "maturin build");
     let wheel = std::fs::read_dir(wheels.path()).unwrap().flatten().map(|entry| entry.path()).next().unwrap();
     let fresh = wheels.path().join("fresh");
-    let mut pip = Command::new(tools().join("bin/pip"));
+    let mut pip = Command::new(python::tools().join("pip"));
     pip.args(["install", "--no-index", "--quiet", "--prefix"]).arg(&fresh).arg(&wheel);
-    said(&pip.output().unwrap(), "pip install");
+    python::said(&pip.output().unwrap(), "pip install");
     let version = Command::new(fresh.join("bin/macroglot")).arg("--version").output().unwrap();
-    assert_eq!(said(&version, "version"), format!("macroglot {}\n", env!("CARGO_PKG_VERSION")));
+    assert_eq!(python::said(&version, "version"), format!("macroglot {}\n", env!("CARGO_PKG_VERSION")));
     let hook = format!(
         "  - id: macroglot\n    name: macroglot\n    entry: macroglot check\n    language: python\n    \
          additional_dependencies: ['{}']\n    files: '\\.nc$'\n",
