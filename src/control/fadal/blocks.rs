@@ -239,7 +239,7 @@ impl<'r> Interpreter<'r, '_> {
             let Asked::Call(call) = asked else {
                 return Err(Halt::Error("G66 stands without the subroutine that it calls".into()));
             };
-            self.session.act_as(Question::CallModalBlockCalls, "");
+            self.session.act_as(Question::CallModalBlockCalls, "false");
             if self.in_modal || !self.modal.is_empty() {
                 self.session.act_as(Question::CallModalNested, "");
             }

@@ -139,7 +139,8 @@ fn a_modal_subroutine_runs_after_each_move_until_g67() {
     ended(&run);
     // At once by M45, at X1, and twice at X2; its own moves call nothing.
     assert_eq!(run.variables["V1"], 4.0);
-    assert!(doubts(&run).contains(&"behaviour:call.modal.block.calls"));
+    // The manual says from where on it runs (seed 000:1673).
+    assert!(!doubts(&run).contains(&"behaviour:call.modal.block.calls"));
 }
 
 #[test]
@@ -249,7 +250,6 @@ fn g90_and_g91_count_for_the_words_after_them() {
     let expected = [[2.0, 6.0, 0.0], [3.0, 6.0, 0.0], [0.0, 0.0, 0.0]];
     assert_eq!(places.len(), expected.len());
     places.iter().zip(expected).for_each(|(found, expected)| near(*found, expected));
-    assert!(doubts(&run).contains(&"behaviour:distance.code"));
 }
 
 /// The manual's examples (section 12, p. 266), and how far each block turns: 90, then by + to 45, back to 0, by - to 90.

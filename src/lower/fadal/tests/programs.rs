@@ -44,9 +44,9 @@ fn modal_calls_name_their_subroutine() {
         text.contains("nc motion.rapid axis.x=0\nmodal block1\nnc cycle.here\nnc axis.x=1\nmodal.off\nend\n"),
         "{text}"
     );
-    assert_eq!(found(source, ""), ["behaviour:call.modal.block.calls"]);
+    assert!(found(source, "").is_empty());
     let nested = "O1\nL100\nL201 G66\nX1.\nG67\nM17\nL200\nM17\nM30\nG0 X0\nL101 G66\nX1.\nG67\nM2\n";
-    assert_eq!(found(nested, ""), ["behaviour:call.modal.block.calls", "behaviour:call.modal.nested"]);
+    assert_eq!(found(nested, ""), ["behaviour:call.modal.nested"]);
     // What a modal subroutine drills is no move of its caller: no G1 that would end the cycle.
     let drills = "O1\nL100\n#:A\nG82 Z-1. R0+2. P250\nX+R9\nG80\n#IF V1>0 THEN GOTO :A\nM17\nM30\n";
     let text = program(&format!("{drills}G1 X0\nL101 G66\nX4.\nG67\nM2\n"));

@@ -230,7 +230,7 @@ impl<'b> Lowering<'b> {
     }
 
     fn modal(&mut self, call: Call, span: Span) -> Option<()> {
-        self.suppose(Question::CallModalBlockCalls, "", span);
+        self.suppose(Question::CallModalBlockCalls, "false", span);
         if self.state.modal > 0 || self.state.in_modal {
             self.suppose(Question::CallModalNested, "", span);
         }
