@@ -134,8 +134,15 @@ fn unsure_on(dialect: &str, profile: &str, program: &str) -> BTreeSet<String> {
 #[test]
 fn a_confirmed_matter_is_not_doubted() {
     let (program, fact) = ("O1\nG90G0X1.Y1.\nG2X1.Y1.R2.F100.\nM30\n", "machine:arc.radius.full.circle");
-    assert!(unsure("", program).contains(fact));
-    assert!(!unsure(&format!("confirm = [\"{fact}\"]\n"), program).contains(fact));
+    assert!(unsure_on("haas", "", program).contains(fact));
+    assert!(!unsure_on("haas", &format!("confirm = [\"{fact}\"]\n"), program).contains(fact));
+}
+
+/// Fanuc B-63324EN/03 p. 48: an arc by its radius that ends at its start is one of 0 degrees, and the cutter does not move.
+#[test]
+fn what_a_manual_says_of_a_matter_is_not_doubted() {
+    let program = "O1\nG90G0X1.Y1.\nG2X1.Y1.R2.F100.\nM30\n";
+    assert!(!unsure("", program).contains("machine:arc.radius.full.circle"));
 }
 
 /// No source says what a tool word of two digits is, nor in which feed mode a Haas lathe starts.

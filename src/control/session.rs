@@ -80,7 +80,7 @@ impl<'r, 'f> Session<'r, 'f> {
         let deadline =
             scenario.milliseconds.and_then(|ms| Instant::now().checked_add(Duration::from_millis(ms)));
         let machine = Machine::new(library.rules(control), control, scenario);
-        let mut trace = Trace::new(scenario.events, &control.profile().confirm);
+        let mut trace = Trace::new(scenario.events, &control.tried());
         machine.tell_entry(&scenario.entry, &mut trace);
         trace.nearness = scenario.nearness.then(Box::default);
         Self {

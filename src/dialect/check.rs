@@ -6,8 +6,8 @@ use super::overlay;
 use super::questions::SETTING;
 use super::reader::{Placed, Reader, closest};
 use super::{
-    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Operator, Question, Row,
-    SameCells, Setting, Statement, SystemVariable, VariableClass, WordMeaning,
+    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Matter, Operator, Question,
+    Row, SameCells, Setting, Statement, SystemVariable, VariableClass, WordMeaning,
 };
 use std::collections::BTreeMap;
 
@@ -22,6 +22,7 @@ pub(super) struct Tables {
     pub statements: Vec<Placed<Statement>>,
     pub behaviours: Vec<Placed<Behaviour>>,
     pub variables: Vec<Placed<VariableClass>>,
+    pub matters: Vec<Placed<Matter>>,
     pub in_use: Vec<Placed<InUse>>,
     pub same_cells: Vec<Placed<SameCells>>,
     pub system: Vec<Placed<SystemVariable>>,
@@ -44,6 +45,8 @@ pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     duplicates(reader, &tables.arguments, |row| format!("local {}", row.local));
     duplicates(reader, &tables.settings, Row::full_key);
     duplicates(reader, &tables.words, |row| format!("{} {:?} {:?}", row.letter, row.machine, row.when));
+    duplicates(reader, &tables.matters, |row| row.name.clone());
+    matters(reader, &tables.matters);
     forms(reader, tables);
     operators(reader, &tables.operators);
     names(reader, tables);
@@ -365,6 +368,16 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
                 let help = "write 'setting.NAME=VALUE' with a setting of this file and one of its values";
                 reader.fault_at(place.clone(), format!("no setting says '{when}'"), help);
             }
+        }
+    }
+}
+
+/// Each is one that the emulated controls know.
+fn matters(reader: &mut Reader, rows: &[Placed<Matter>]) {
+    for Placed { row, place, .. } in rows {
+        if super::matters::meaning(&row.fact()).is_none() {
+            let help = "src/dialect/matters.rs lists them, with 'machine:' before the name";
+            reader.fault_at(place.clone(), format!("no matter is named '{}'", row.name), help);
         }
     }
 }

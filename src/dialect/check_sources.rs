@@ -42,6 +42,7 @@ pub(super) fn sources(reader: &mut Reader, tables: &Tables) {
     section(reader, &tables.statements, &tables.behaviours);
     section(reader, &tables.behaviours, &tables.behaviours);
     section(reader, &tables.variables, &tables.behaviours);
+    section(reader, &tables.matters, &tables.behaviours);
     section(reader, &tables.in_use, &tables.behaviours);
     section(reader, &tables.same_cells, &tables.behaviours);
     section(reader, &tables.system, &tables.behaviours);

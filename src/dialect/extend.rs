@@ -134,6 +134,7 @@ fn lay(reader: &mut Reader, own: Whole, base: Whole, without: &mut [Without]) ->
             statements: lay.rows(mine.statements, its.statements),
             behaviours: lay.rows(mine.behaviours, its.behaviours),
             variables: lay.rows(mine.variables, its.variables),
+            matters: lay.rows(mine.matters, its.matters),
             in_use: lay.rows(mine.in_use, its.in_use),
             same_cells: lay.rows(mine.same_cells, its.same_cells),
             system: lay.rows(mine.system, its.system),

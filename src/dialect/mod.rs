@@ -32,6 +32,7 @@ mod overlay_settings;
 mod overlay_variables;
 mod page;
 mod profile;
+mod question_groups;
 mod questions;
 mod reader;
 pub mod registry;
@@ -69,6 +70,7 @@ pub use page::page;
 pub use profile::{
     Axis, DecimalPoint, LineEnds, Machine, Outputs, Plain, Profile, Signal, Units, VariableRun,
 };
+pub use question_groups::QuestionGroup;
 pub use questions::{Answers, Question};
 pub use reader::{faults_as_text, faults_of_files};
 pub use registry::Entry;
@@ -81,4 +83,4 @@ pub use standing::Standing;
 pub use start::{Start, StartMode};
 pub use turret_word::{TurretWord, apart as turret_parts};
 pub use unconfirmed::{Settled, Side, to_confirm};
-pub use variables::{InUse, SameCells, VariableClass};
+pub use variables::{InUse, Matter, SameCells, VariableClass};

@@ -5,7 +5,7 @@ use super::Forbidden;
 use super::Origin;
 use super::forms::{Form, LineCounts, Names};
 use super::rows::*;
-use super::{InUse, SameCells, VariableClass};
+use super::{InUse, Matter, SameCells, VariableClass};
 use serde::{Deserialize, Serialize};
 
 pub(super) fn yes() -> bool {
@@ -45,6 +45,8 @@ pub struct Dialect {
     pub statements: Vec<Statement>,
     /// Yes-or-no questions of behaviour, by name.
     pub behaviours: Vec<Behaviour>,
+    /// What is as the emulated controls have it, though no table asks about it.
+    pub matters: Vec<Matter>,
     /// Classes of variables that programs may use freely.
     pub variables: Vec<VariableClass>,
     /// Those of them that most shops have put to use.

@@ -2,7 +2,7 @@
 
 use super::matrix::{MARKS, mark, run};
 use super::table::columns;
-use super::{Compares, Control, Row};
+use super::{Compares, Control, Row, matters};
 use crate::canon::Op;
 
 /// All that is known of a control: section by section, each row with its
@@ -101,6 +101,10 @@ pub fn page(control: &Control) -> String {
         };
         let runs = run(&row.name, row.first, row.last, row.class == "letter");
         vec![runs, row.class.clone(), kept.into(), option(&row.option)]
+    });
+    section(&mut out, "AS ON THE EMULATED CONTROL", &dialect.matters, |row| {
+        let meaning = matters::meaning(&row.fact()).unwrap_or_default();
+        vec![row.name.clone(), meaning.into()]
     });
     section(&mut out, "VARIABLES IN USE", &dialect.in_use, |row| {
         vec![run(&row.name, row.first, row.last, false), row.by.clone()]

@@ -1,8 +1,8 @@
 //! What all rows have in common: a section, a name within it, an origin.
 
 use super::{
-    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Names, Numbers, Operator,
-    Origin, SameCells, Setting, Statement, SystemVariable, Text, VariableClass, WordMeaning,
+    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Matter, Names, Numbers,
+    Operator, Origin, SameCells, Setting, Statement, SystemVariable, Text, VariableClass, WordMeaning,
 };
 use crate::canon::Op;
 use serde::de::DeserializeOwned;
@@ -91,6 +91,7 @@ row! {
     };
     Statement "statements" "statement" |row| row.name.clone();
     Behaviour "behaviours" "behaviour" |row| row.question.name().into(), of_machine option;
+    Matter "matters" "machine" |row| row.name.clone();
     InUse "in_use" "in_use" |row| format!("{}{}", row.name, row.first);
     SameCells "same_cells" "same_cells" |row| format!("{}{}", row.name, row.first);
     VariableClass "variables" "variable" |row| format!("{}{}", row.name, row.first);

@@ -5,7 +5,9 @@ use super::overlay::Overlay;
 use super::profile::Plain;
 use super::questions::{Answers, SETTING};
 use super::reader::closest;
-use super::{Behaviour, CodeHead, Control, Dialect, Mark, Origin, Question, Row, matters, registry};
+use super::{
+    Behaviour, CodeHead, Control, Dialect, Mark, Origin, Question, QuestionGroup, Row, matters, registry,
+};
 use crate::canon::Func;
 use std::collections::BTreeMap;
 
@@ -18,11 +20,17 @@ const MAY_BE_NONE: [&str; 1] = ["brackets"];
 impl Overlay {
     /// Puts the answers that the profile states in place of the table's.
     pub(super) fn behaviours(&mut self, dialect: &mut Dialect) {
-        for (name, value) in self.profile.behaviours.clone() {
-            let value = match value {
-                Plain::Truth(truth) => truth.to_string(),
-                other => other.to_string(),
-            };
+        let word = |value| match value {
+            Plain::Truth(truth) => truth.to_string(),
+            other => other.to_string(),
+        };
+        let all = self.profile.behaviours.clone().into_iter().map(|(name, value)| (name, word(value)));
+        let (groups, single): (Vec<_>, Vec<_>) =
+            all.partition(|(name, _)| QuestionGroup::find(name).is_some());
+        for (name, value) in groups {
+            self.group(dialect, &name, &value);
+        }
+        for (name, value) in single {
             match stated(dialect, &name, &value) {
                 Ok(question) => match self.contradicted(dialect, question, &value) {
                     Some(setting) => {
@@ -34,6 +42,46 @@ impl Overlay {
                 Err((message, help)) => self.fault(&format!("behaviours:{name}"), message, help),
             }
         }
+    }
+
+    /// Puts the answer to a group of questions in place of those that the table leaves open, and the profile too.
+    fn group(&mut self, dialect: &mut Dialect, name: &str, value: &str) {
+        let Some(group) = QuestionGroup::find(name) else { return };
+        let place = format!("behaviours:{name}");
+        if !group.answers().admits(value) || OPEN.contains(&value) {
+            let help = format!("it is {}", group.answers().written(&[]));
+            return self.fault(&place, format!("'{value}' is not a value of {name}"), help);
+        }
+        let row = |question: &Question| dialect.behaviours.iter().find(|row| row.question == *question);
+        let asked: Vec<Question> =
+            group.questions.iter().copied().filter(|question| row(question).is_some()).collect();
+        if asked.is_empty() {
+            let help = "it has nothing that the questions are about: remove the line".to_owned();
+            return self.fault(&place, format!("{} is not asked '{name}'", dialect.title), help);
+        }
+        for question in asked {
+            let Some(row) = dialect.behaviours.iter().find(|row| row.question == question) else { continue };
+            let is_open = OPEN.contains(&row.value.as_str()) || !row.origin.is_settled();
+            let is_single =
+                self.profile.behaviours.contains_key(question.name()) || self.is_set(dialect, question);
+            if !is_open && !is_single && row.value != value {
+                let message =
+                    format!("{question} is '{}' in the table, and {name} says '{value}'", row.value);
+                let help = format!("answer {question} by itself, if this machine is not so");
+                self.fault(&place, message, help);
+            } else if is_open && !is_single {
+                match stated(dialect, question.name(), value) {
+                    Ok(question) => answer(dialect, question, value.to_owned()),
+                    Err((message, help)) => self.fault(&place, message, help),
+                }
+            }
+        }
+    }
+
+    /// True where a setting that the profile states answers a question.
+    fn is_set(&self, dialect: &Dialect, question: Question) -> bool {
+        let mut rows = dialect.settings.iter().filter(|row| self.stated.contains(&row.name));
+        rows.any(|row| row.sets.values().any(|sets| sets.contains_key(question.fact())))
     }
 
     /// Puts the limits that the profile states in place of the table's.
@@ -144,7 +192,8 @@ impl Overlay {
 /// The question that a profile answers; else what is wrong, and what to do.
 fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (String, String)> {
     let Some(question) = Question::find(name) else {
-        let help = match closest(name, Question::ALL.iter().map(|known| known.name())) {
+        let groups = QuestionGroup::all().iter().map(|group| group.name);
+        let help = match closest(name, Question::ALL.iter().map(|known| known.name()).chain(groups)) {
             Some(near) => format!("did you mean '{near}'?"),
             None => "'macroglot dialects' lists the questions under BEHAVIOURS".into(),
         };
@@ -272,6 +321,7 @@ impl Control {
             least(&d.functions, fact),
             least(&d.statements, fact),
             least(&d.behaviours, fact),
+            least(&d.matters, fact),
             least(&d.variables, fact),
             least(&d.system, fact),
             least(&d.words, fact),
@@ -299,6 +349,7 @@ fn each_row(dialect: &mut Dialect, visit: &mut dyn FnMut(&str, &mut super::Origi
     section(&mut dialect.functions, visit);
     section(&mut dialect.statements, visit);
     section(&mut dialect.behaviours, visit);
+    section(&mut dialect.matters, visit);
     section(&mut dialect.variables, visit);
     section(&mut dialect.system, visit);
     section(&mut dialect.words, visit);

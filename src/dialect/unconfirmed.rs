@@ -34,9 +34,17 @@ impl Control {
         }
     }
 
-    /// True where the machine's profile says that a matter was tried there: [`matters::ALL`].
+    /// True where a source or the machine's profile says that a matter is as the emulated controls have it:
+    /// [`matters::ALL`].
     pub fn has_tried(&self, matter: &str) -> bool {
         self.profile().confirm.iter().any(|fact| fact == matter)
+            || self.dialect().matters.iter().any(|row| row.origin.is_settled() && row.fact() == matter)
+    }
+
+    /// All such matters, and the facts that the profile confirms.
+    pub fn tried(&self) -> Vec<String> {
+        let rows = self.dialect().matters.iter().filter(|row| row.origin.is_settled());
+        self.profile().confirm.iter().cloned().chain(rows.map(Row::fact)).collect()
     }
 
     /// The construct at `span` rests on a fact of this control, named as a machine profile confirms it:

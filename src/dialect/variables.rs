@@ -27,6 +27,18 @@ pub struct VariableClass {
     pub origin: Origin,
 }
 
+/// A matter that no table asks about ([`matters`](super::matters)), and of which a source says that it is as the emulated
+/// controls have it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Matter {
+    /// Its name without what all have in front: `arc.radius.full.circle`.
+    pub name: String,
+    /// Where it comes from.
+    #[serde(skip_deserializing)]
+    pub origin: Origin,
+}
+
 /// Free variables that something of most shops has put to use: a conversion takes others while there are any.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

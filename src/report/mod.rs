@@ -12,6 +12,7 @@ mod json;
 mod markdown;
 mod part;
 mod plot;
+mod question_groups;
 mod questions;
 mod sarif;
 mod text;

@@ -15,10 +15,10 @@ use std::ptr;
 use std::sync::Arc;
 
 /// Places that are named of a question.
-const NAMED: usize = 3;
+pub(super) const NAMED: usize = 3;
 
 /// Places that a question keeps.
-const KEPT: usize = 100;
+pub(super) const KEPT: usize = 100;
 
 /// Something that stands at one or more places.
 #[derive(Clone, Debug)]
@@ -115,8 +115,15 @@ fn same(finding: &Diagnostic) -> Same {
 }
 
 impl<'a> Questions<'a> {
-    /// Gathers the findings of conversions.
+    /// Gathers the findings of conversions; what one answer of a profile settles is one question.
     pub fn of(parts: &[Part<'a>]) -> Self {
+        let mut questions = Self::single(parts);
+        questions.group();
+        questions
+    }
+
+    /// Gathers the findings of conversions, with each question of a machine by itself.
+    pub fn single(parts: &[Part<'a>]) -> Self {
         let mut all: BTreeMap<Key<'a>, usize> = BTreeMap::new();
         let mut gathered: Vec<Gathered<'a>> = Vec::new();
         let mut controls: Vec<&'a Control> = Vec::new();

@@ -7,7 +7,7 @@
 use super::{AskedStart, Survey};
 use crate::canon::{Group, Op};
 use crate::dialect::{
-    Control, DecimalPoint, Plain, Profile, Question, Settled, Side, SiteCode, Units, Without,
+    Control, DecimalPoint, Plain, Profile, Question, QuestionGroup, Settled, Side, SiteCode, Units, Without,
 };
 use crate::report::Questions;
 use std::collections::BTreeMap;
@@ -147,7 +147,8 @@ fn answer(settled: Settled, other: &Control) -> Option<Answer> {
         Settled::Key { name: "units", .. } => Box::new(|profile| profile.units = Some(Units::Metric)),
         Settled::Key { .. } => Box::new(|profile| profile.decimal_point = Some(DecimalPoint::Calculator)),
         Settled::Answer { question, answers } => {
-            let there = Question::find(&question).and_then(|question| other.behaviour(question));
+            let first = QuestionGroup::find(&question).and_then(|group| group.questions.first().copied());
+            let there = Question::find(&question).or(first).and_then(|question| other.behaviour(question));
             let mut all = answers.split(" or ").map(|answer| answer.trim_matches('"'));
             let same = all.clone().find(|answer| there.is_some_and(|row| row.value == *answer));
             let first = same.or_else(|| all.next())?.to_owned();

@@ -74,7 +74,7 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     match side {
-        Side::Source => codes(&mut text, survey),
+        Side::Source => super::site_rows::rows(&mut text, survey),
         Side::Target => text = super::there::asked_in(&text, survey),
     }
     match read(&text)? == before {
@@ -261,48 +261,6 @@ fn with_machine(text: &str, said: &Profile, lathe: Option<String>, point: Option
 pub(super) fn spliced(text: &str, at: usize, more: &str) -> String {
     let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
     format!("{before}{more}{after}")
-}
-
-/// The codes of the machine's builder, each as a row to fill in.
-fn codes(text: &mut String, survey: &Survey<'_>) {
-    if survey.codes.is_empty() {
-        return;
-    }
-    let _ = writeln!(
-        text,
-        "{TELLS} What the machine's builder made of these codes: docs/builders-codes.md. Give each a name (and the"
-    );
-    let _ = writeln!(
-        text,
-        "{TELLS} target's code the same one), or target = \"M88\", or do = \"omit\", \"stop\" or \"alarm\"; do = \"same\" only where"
-    );
-    let _ = writeln!(text, "{TELLS} the target's own builder gave that very code the same meaning.");
-    for code in &survey.codes {
-        let programs =
-            if code.programs == 1 { String::new() } else { format!("{} programs: ", code.programs) };
-        let _ = writeln!(text, "{ASKS} [[site]] # {programs}{}", plain(&code.places.join(", ")));
-        let _ = writeln!(text, "{ASKS} code = \"{}\"", code.code);
-        let said = code.comment.as_ref().map_or(String::new(), |(comment, _)| comment.clone());
-        let said: String =
-            said.chars().filter(|letter| !letter.is_control() && !"\"\\".contains(*letter)).collect();
-        let _ = writeln!(text, "{ASKS} text = \"{said}\" # as in: {}", plain(&code.block));
-        let _ = match code.op {
-            Some(op) => writeln!(
-                text,
-                "{ASKS} op = \"{op}\" # where P says the spindle that the target's code turns too; else name = \"\" in its place"
-            ),
-            None => writeln!(text, "{ASKS} name = \"\""),
-        };
-        if !code.words.is_empty() {
-            let words =
-                code.words.iter().map(|letter| format!("{letter} = \"{letter}\"")).collect::<Vec<_>>();
-            let _ = writeln!(
-                text,
-                "{ASKS} words = {{ {} }} # its words: each with a name, or beside target with that code's letter",
-                words.join(", ")
-            );
-        }
-    }
 }
 
 #[cfg(test)]

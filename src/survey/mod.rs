@@ -12,6 +12,7 @@ mod json;
 mod keys;
 mod programs;
 mod shape;
+mod site_rows;
 mod start;
 mod text;
 mod there;
@@ -197,17 +198,15 @@ impl Survey<'_> {
 
     /// What it will ask of the machines once all of that is answered, and does not ask now.
     pub fn with_later<T>(&self, look: impl FnOnce(&Questions<'_>) -> T) -> T {
-        let mut later = Questions::of(&self.then.iter().map(|then| self.part(then)).collect::<Vec<_>>());
-        self.with_questions(|now| {
-            let known = |fact: &Fact<'_>| {
-                now.machines
-                    .iter()
-                    .flat_map(|machine| &machine.facts)
-                    .any(|of| of.settled_by == fact.settled_by)
-            };
-            later.machines.iter_mut().for_each(|machine| machine.facts.retain(|fact| !known(fact)));
-            later.machines.retain(|machine| !machine.facts.is_empty());
-        });
+        // What one answer settles is put together of what is new alone.
+        let mut later = Questions::single(&self.then.iter().map(|then| self.part(then)).collect::<Vec<_>>());
+        let now = Questions::single(&[self.part(&self.rest)]);
+        let known = |fact: &Fact<'_>| {
+            now.machines.iter().flat_map(|machine| &machine.facts).any(|of| of.settled_by == fact.settled_by)
+        };
+        later.machines.iter_mut().for_each(|machine| machine.facts.retain(|fact| !known(fact)));
+        later.machines.retain(|machine| !machine.facts.is_empty());
+        later.group();
         later.open.clear();
         later.notes = 0;
         look(&later)

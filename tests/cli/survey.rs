@@ -69,14 +69,14 @@ fn what_is_filled_in_frees_programs() {
     let asked = shop.read("m1.toml");
     assert!(
         asked.contains(
-            "#? code = \"M14\"\n#? text = \"CHUCK AIR\" # as in: M14 (CHUCK AIR)\n#? name = \"\"\n"
+            "#? code = \"M14\"\n#? text = \"CHUCK AIR\" # as in: M14 (CHUCK AIR)\n#? target = \"\" # or"
         ),
         "{asked}"
     );
     assert!(shop.read("m1-to-haas.toml").starts_with("dialect = \"haas\"\n"));
     let answered =
         asked.replace("#? [[site]]", "[[site]]").replace("#? code", "code").replace("#? text", "text");
-    shop.write("m1.toml", answered.replace("#? name = \"\"", "do = \"omit\"").as_bytes());
+    shop.write("m1.toml", answered.replace("#? target = \"\"", "do = \"omit\"").as_bytes());
     let again = json(&shop, &format!("{survey} --format json"));
     assert_eq!((&again["codes"], &again["now"]["refused"]), (&serde_json::json!([]), &0.into()));
     let kept = shop.read("m1.toml");
@@ -319,7 +319,7 @@ fn a_builders_code_is_asked_with_its_words() {
     assert_eq!(asked.matches("#? words").count(), 2, "{asked}");
     let answered = asked.replace("#? [[site]]", "[[site]]").replace("#? code", "code");
     let answered = answered.replace("#? text = \"\"", "text = \"a\"").replace("#? words", "words");
-    let answered = answered.replace("#? name = \"\"", "do = \"omit\"");
+    let answered = answered.replace("#? target = \"\"", "do = \"omit\"");
     let unit = "units = \"metric\"\ndecimal_point = \"calculator\"\n";
     shop.write("m.toml", answered.replacen('\n', &format!("\n{unit}"), 1).as_bytes());
     let run = shop.run("convert lib/a.nc --machine m.toml --to haas --out out");

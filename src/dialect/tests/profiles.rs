@@ -275,3 +275,34 @@ fn a_machine_may_have_more_variables_than_the_table() {
         "'retained' says nothing of reserved variables",
     );
 }
+
+/// One answer for questions of one kind: what is answered by itself counts first, and what a manual says stays.
+#[test]
+fn a_group_answers_what_is_open() {
+    let ends = |text: &str| {
+        let control = Control::from_profile(text).unwrap();
+        let value = |question| control.behaviour(question).unwrap().value.clone();
+        [Question::StopEndsSpindle, Question::StopEndsCoolant].map(value)
+    };
+    let fanuc = "dialect = \"fanuc\"\n";
+    assert_eq!(ends(&format!("{fanuc}[behaviours]\n\"stop.ends\" = true")), ["true", "true"]);
+    for single in [
+        "[behaviours]\n\"stop.ends\" = true\n\"stop.ends.coolant\" = false",
+        "[behaviours]\n\"stop.ends.coolant\" = false\n\"stop.ends\" = true",
+        "[behaviours]\n\"stop.ends\" = true\n[settings]\nstop_ends_coolant = \"no\"",
+    ] {
+        assert_eq!(ends(&format!("{fanuc}{single}")), ["true", "false"], "{single}");
+    }
+    let haas = "dialect = \"haas\"\n[behaviours]\n";
+    assert_eq!(ends(&format!("{haas}\"stop.ends\" = true")), ["true", "true"]);
+    wrong(&format!("{haas}\"stop.ends\" = false"), "stop.ends.spindle is 'true' in the table");
+    assert_eq!(
+        ends(&format!(
+            "{haas}\"stop.ends\" = false\n\"stop.ends.spindle\" = false\n\"stop.ends.coolant\" = false"
+        )),
+        ["false", "false"]
+    );
+    wrong(&format!("{haas}\"no.result\" = \"unknown\""), "is not a value of no.result");
+    wrong(&format!("{haas}\"no.result\" = \"zero\""), "is not a value of no.result");
+    wrong(&format!("{haas}\"no.results\" = \"alarm\""), "did you mean 'no.result'?");
+}

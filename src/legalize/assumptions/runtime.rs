@@ -314,10 +314,8 @@ fn arc(nc: &Nc, index: usize, span: Span, context: &mut Context<'_>) {
     };
     if nc.word(Role::ArcRadius).is_some() && nc.items.iter().any(computed) {
         let name = "machine:arc.radius.full.circle";
-        let confirmed =
-            |control: &crate::dialect::Control| control.profile().confirm.iter().any(|fact| fact == name);
-        if !confirmed(context.source) || !confirmed(context.target) {
-            let side = if confirmed(context.target) { Side::Source } else { Side::Target };
+        let sides = [(Side::Source, context.source), (Side::Target, context.target)];
+        for side in sides.iter().filter(|(_, control)| !control.has_tried(name)).map(|(side, _)| *side) {
             let what = format!("no manual confirms '{name}': {}", matters::meaning(name).unwrap_or_default());
             context.unconfirmed(index, side, span, name, what);
         }

@@ -1,5 +1,6 @@
 //! Moves, coordinates and units.
 
+pub(in crate::legalize) mod absolute_places;
 pub(in crate::legalize) mod added_angles;
 pub(in crate::legalize) mod bare_arcs;
 pub(in crate::legalize) mod first_increments;

@@ -13,7 +13,7 @@ use crate::legalize::assumptions::shop::{are_mills, rests};
 use crate::legalize::features::Features;
 use crate::text::Span;
 
-const MOVE: Question = Question::MachineUnderIncremental;
+pub(super) const MOVE: Question = Question::MachineUnderIncremental;
 const CENTRE: Question = Question::RotationCentreIncremental;
 
 /// True if the library has such blocks, between two mills.

@@ -7,9 +7,9 @@ use crate::legalize::assumptions::barred;
 use crate::legalize::cycles::{hole_circles, pockets, rigid_taps, tap_leads, tapping, turn_feeds};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
-    added_angles, bare_arcs, home, increments, inverse_feeds, long_arcs, machine_feeds, machine_moves, polar,
-    polar_mode, rapid_once, reference, rotary_turns, rotary_ways, rotations, second_home, shaped, shift,
-    short_arcs, under_increments, unit_agrees, unit_checks, units, word_rounds,
+    absolute_places, added_angles, bare_arcs, home, increments, inverse_feeds, long_arcs, machine_feeds,
+    machine_moves, polar, polar_mode, rapid_once, reference, rotary_turns, rotary_ways, rotations,
+    second_home, shaped, shift, short_arcs, under_increments, unit_agrees, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -76,6 +76,12 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::reports("added-angles", "tells of angles of rotations that may add up", added_angles::run)
         .when(added_angles::concerns),
+    Pass::rewrites(
+        "absolute-places",
+        "machine coordinates under G91 get G90, where the target's meaning is not known",
+        absolute_places::run,
+    )
+    .when(absolute_places::concerns),
     Pass::reports(
         "under-increments",
         "tells of machine coordinates and centres of rotations under G91",

@@ -115,7 +115,7 @@ impl<'c> Findings<'c> {
                 return self.list.push(Diagnostic { span, ..told.finding.clone() });
             }
         }
-        if self.control.profile().confirm.contains(&fact) {
+        if self.control.has_tried(&fact) {
             return;
         }
         let finding = self.control.unconfirmed(Side::Source, &fact, note, span);
