@@ -1,8 +1,9 @@
 //! Machine coordinates under G91, for a target of which nobody knows what they are there.
 //!
 //! Law: the source goes to the place in machine coordinates whether G90 or G91 is in force. Under G90 each target goes to it too, so
-//! the block gets G90, and G91 comes back after it. Side conditions: G91 is in force for certain; the block has a move, its feed and
-//! the spindle alone; no block skip, no drilling cycle and no modal call, which would run between the two. What does not keep them
+//! the block gets G90, and G91 comes back after it. Side conditions: G91 is in force for certain; the block has a move, its feed,
+//! the spindle and coolant alone; no block skip, no drilling cycle, no modal call, which would run between the two, and no rotation,
+//! whose centre the first absolute word after it may set. What does not keep them
 //! stays, and `under_increments` asks of it. Counter-example: `G91 G53 Z0 M33`, whose M33 may act when the move is done.
 
 use super::under_increments::MOVE;
@@ -21,6 +22,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
         && features.op(Op::MachineOnce)
         && features.op(Op::Incremental)
         && !features.has(Feature::Modal)
+        && !features.any_op(|op| matches!(op, Op::RotateOn | Op::ScaleOn | Op::MirrorOn))
         && goes
         && answer(context.target).is_some_and(|value| value != "place")
 }
@@ -53,7 +55,7 @@ fn is_place(nc: &Nc, state: &Modal, drills: bool) -> bool {
     let own = |item: &NcItem| match item {
         NcItem::Op(op) => {
             matches!(op, Op::MachineOnce | Op::Incremental | Op::Rapid | Op::Linear)
-                || op.group() == Group::Spindle
+                || matches!(op.group(), Group::Spindle | Group::Coolant)
         }
         NcItem::Word(role, _) => role.is_axis() || matches!(role, Role::Feed | Role::Speed),
         _ => false,

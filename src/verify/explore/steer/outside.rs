@@ -65,7 +65,9 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
     let state = (0..scenario.state.len()).map(Input::State);
     let answers = (0..if inputs.asks { FIRST.min(scenario.answers.len()) } else { 0 }).map(Input::Answer);
     let probes = (0..FIRST.min(scenario.probes.len())).map(Input::Probe);
-    let start = (0..3).map(Input::Start);
+    // Rotary axes stand anywhere as in other scenarios, unless conversions hold for those that stand at 0.
+    let turned = (3..6).filter(|axis| !inputs.turns_by_sign && inputs.rotary[axis - 3]);
+    let start = turned.chain(0..3).map(Input::Start);
     let all = variables
         .chain(reached.iter().cloned())
         .chain(machine)
