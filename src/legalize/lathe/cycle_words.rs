@@ -5,23 +5,27 @@
 //! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
 //! otherwise.
 
+mod starts;
+mod written;
+
 use super::contours::facts_uncompensated;
-use super::cycle_values::{Given, Need, Untold, Values, Written, replace, resolve, told, values_of};
-use super::groove_passes;
+use super::cycle_values::{Given, Untold, Values, Written, replace, resolve, told, values_of};
 use super::place::Place;
 use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
-use super::setting_values::{Found, Instead, So, tell, written};
+use super::setting_values::{Found, Instead, So, tell};
 use super::settings::{Kind, block_before, setting, share, stands_in, takes};
 use super::straight::entered_straight;
-use super::thread_passes::{all, finishes, runs_out as single_passes, says_how};
+use super::thread_loops::{self, Loop};
+use super::thread_passes::{finishes, runs_out as single_passes, says_how};
 use super::threads::{beyond, flanks_are_open};
-use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{Control, Question, Units};
+use crate::dialect::{Control, Units};
+use crate::ir::analysis::Summaries;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
+use starts::{Starts, vacant};
 
 /// True if there are such cycles, and the target does not take the values from where the source does, or from a setting that is another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -55,13 +59,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let with: Vec<usize> = (0..module.programs.len()).filter(|at| has(&module.programs[*at])).collect();
     let (called, main) = (context.modal_facts(module), facts_uncompensated(module, context));
     let written = Written::of(module, context.source);
+    let summaries = context.summaries(module);
     let mut all = Vec::new();
     for index in &with {
         let program = &mut module.programs[*index];
         // Who calls one that returns, the library may not know; others begin after a reset or an end (docs/lathe.md Q1).
         let facts = if returns(program) { &called } else { &main };
         let states = program.ids().map(|id| facts.at(*index, id)).collect();
-        let found = each(program, states, (*index, &written), context);
+        let found = each(program, states, (*index, &written, &summaries), context);
         all.push((*index, found));
     }
     tell(all, module, context);
@@ -71,10 +76,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
 fn each(
     program: &mut Program,
     states: Vec<Modal>,
-    (index, written): (usize, &Written),
+    (index, written, summaries): (usize, &Written, &Summaries),
     context: &mut Context<'_>,
 ) -> Found {
     let straight = entered_straight(program);
+    let threads = context.features.op(Op::Threading);
+    let vacant = if threads { vacant(program, summaries) } else { Vec::new() };
     let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
     let mut run = Run {
         source: context.source,
@@ -87,19 +94,26 @@ fn each(
         compensates: [Op::RadiusLeft, Op::RadiusRight].iter().any(|op| context.features.op(*op)),
         set: Vec::new(),
         place: Place::default(),
+        starts: Starts::default(),
+        vacant: false,
         found: Vec::new(),
+        loops: Vec::new(),
         flanks: None,
     };
-    for ((block, state), straight) in program.blocks.iter_mut().zip(states).zip(straight) {
+    let mut vacant = vacant.into_iter();
+    for (index, ((block, state), straight)) in program.blocks.iter_mut().zip(states).zip(straight).enumerate()
+    {
+        let vacant = vacant.next().unwrap_or_default();
         if !straight {
             run.set.clear();
             run.place.forget();
         }
         let old = std::mem::take(&mut block.stmts);
         let ends = matches!(block.term.kind, TermKind::End { .. });
-        block.stmts = run.block(old.into_iter().collect(), state, ends).into();
+        block.stmts = run.block((index, old.into_iter().collect(), vacant), state, ends).into();
     }
-    let Run { found, flanks, .. } = run;
+    let Run { found, flanks, loops, .. } = run;
+    thread_loops::write(program, loops);
     if let Some(span) = flanks {
         flanks_are_open(index, span, context);
     }
@@ -155,19 +169,31 @@ struct Run<'c> {
     compensates: bool,
     set: Vec<Set>,
     place: Place,
+    starts: Starts,
+    /// True where a word of the block at hand may have no value.
+    vacant: bool,
     found: Found,
+    /// Loops in the place of threads, each with the block and the place in it where the thread stands.
+    loops: Vec<((usize, usize), Loop)>,
     /// The first thread that is written out and cut on both flanks.
     flanks: Option<Span>,
 }
 
 impl Run<'_> {
-    fn block(&mut self, old: Vec<Stmt>, mut state: Modal, ends: bool) -> Vec<Stmt> {
+    fn block(
+        &mut self,
+        (index, old, vacant): (usize, Vec<Stmt>, Vec<bool>),
+        mut state: Modal,
+        ends: bool,
+    ) -> Vec<Stmt> {
         let mut new: Vec<Stmt> = Vec::with_capacity(old.len());
-        let mut old = old.into_iter();
+        let (mut old, mut vacant) = (old.into_iter(), vacant.into_iter());
         while let Some(stmt) = old.next() {
             let rapid = [(Group::Motion, Op::Rapid), (Group::Cycle, Op::CycleOff)];
             let rapid = rapid.iter().all(|(group, op)| state.op(*group) == Some(*op));
             state.step(&stmt);
+            self.vacant = vacant.next().unwrap_or(false);
+            self.starts.step(&stmt, self.vacant, &mut self.place);
             if let Some(kind) = setup_of(&stmt) {
                 new.extend(self.setup(kind, stmt));
                 continue;
@@ -185,7 +211,7 @@ impl Run<'_> {
                         true => Ok(()),
                         false => Err("the next block moves by the code of before"),
                     };
-                    new.extend(self.cycle(kind, stmt, may));
+                    new.extend(self.cycle(kind, (stmt, (index, new.len())), may));
                 }
                 None if matches!(stmt.kind, StmtKind::Comment) => {
                     new.push(stmt);
@@ -246,7 +272,12 @@ impl Run<'_> {
 
     /// The cycle with its words, after the block that sets the rest, if the target has one, and before the passes that the target's cycle
     /// does not make; or all passes of a thread that the target has no cycle for.
-    fn cycle(&mut self, kind: &'static Kind, mut stmt: Stmt, may: Result<(), &'static str>) -> Vec<Stmt> {
+    fn cycle(
+        &mut self,
+        kind: &'static Kind,
+        (mut stmt, at): (Stmt, (usize, usize)),
+        may: Result<(), &'static str>,
+    ) -> Vec<Stmt> {
         let span = stmt.site.span;
         let set = self.set.iter().find(|set| share(self.source, set.kind, kind));
         if set.is_some_and(Set::is_stale) {
@@ -273,7 +304,7 @@ impl Run<'_> {
         let mut why = String::new();
         if (threads.is_some() && given.is_err()) || !elsewhere.is_empty() {
             let other_unit = if stood_in && self.other_unit { Err(OTHER_UNIT) } else { may };
-            match other_unit.and_then(|()| self.written_out(&stmt, &all, kind)) {
+            match other_unit.and_then(|()| self.written_out((&stmt, at), &all, kind)) {
                 Ok(passes) => {
                     let notes = elsewhere.into_iter().map(|(what, help)| (span, what, help, So::Noted));
                     self.found.extend(notes);
@@ -325,45 +356,6 @@ impl Run<'_> {
         let site = crate::ir::SourceInfo { span, ..Default::default() };
         let setup = (!setup.is_empty()).then(|| Stmt { kind: StmtKind::Nc(block_before(kind, setup)), site });
         setup.into_iter().chain([stmt]).chain(passes.unwrap_or_default()).collect()
-    }
-
-    /// What is said where moves take the place of a cycle for a setting that is known to be another one on the target, or that a cycle before
-    /// needs otherwise; nothing for another setting.
-    fn set_otherwise(&self, (.., needs): &Need) -> Option<Instead> {
-        let Predicate::Setting(name, value) = needs else { return None };
-        let before = |(.., so): &(Span, String, String, So)| match so {
-            So::Supposed(Predicate::Setting(other, before)) => other == name && before != value,
-            _ => false,
-        };
-        let stated = self.target.setting(name);
-        (stated.is_some() || self.found.iter().any(before))
-            .then(|| written((name, *value), stated, &self.target.dialect().title))
-    }
-
-    /// The moves of a thread or a groove, in place of its cycle; why there are none.
-    fn written_out(&mut self, stmt: &Stmt, values: &Values, kind: &Kind) -> Result<Vec<Stmt>, &'static str> {
-        if self.in_steps {
-            return Err("words of a place may be increments");
-        }
-        let by_setting = |role: &Role| role.is_length() && setting(self.source, kind.cycle, *role).is_some();
-        if self.other_unit && kind.roles.iter().any(by_setting) {
-            return Err(OTHER_UNIT);
-        }
-        let flanks = self.source.behaviour(Question::ThreadFlanks).map(|row| row.value.as_str());
-        let leading = match flanks {
-            Some("leading.first") => Some(true),
-            Some("trailing.first") => Some(false),
-            _ => None,
-        };
-        if kind.cycle != Op::Threading {
-            return groove_passes::all(stmt, values, self.place, self.target);
-        }
-        let passes = all(stmt, values, leading, self.place, self.target)?;
-        let infeed = values.iter().find(|(role, _)| *role == Role::ThreadInfeed);
-        if infeed.and_then(|(_, way)| way.constant()).is_some_and(|way| way % 2.0 == 0.0) {
-            self.flanks.get_or_insert(stmt.site.span);
-        }
-        Ok(passes)
     }
 
     fn refuse(&mut self, span: Span, what: &str, help: &str) {

@@ -33,6 +33,7 @@ pub mod steps;
 pub mod straight;
 pub mod tap_feeds;
 pub mod thread_form;
+mod thread_loops;
 pub mod thread_passes;
 pub mod thread_ways;
 pub mod threads;

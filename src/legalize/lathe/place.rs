@@ -24,12 +24,32 @@ pub struct Place {
     read: Option<(u32, u32)>,
     /// Inside a contour: the number of its last block, and what was known where the cycle began.
     inside: Option<(u32, At, Option<bool>)>,
+    /// The number of the block at hand, for those that ask which one told a place.
+    block: u32,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct At {
-    x: Option<f64>,
-    z: Option<f64>,
+    x: Option<Told>,
+    z: Option<Told>,
+}
+
+/// What is known of a place along an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Told {
+    /// The place itself.
+    Number(f64),
+    /// The block whose word, which is computed, says it.
+    Block(u32),
+}
+
+impl Told {
+    fn number(self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(number),
+            Self::Block(_) => None,
+        }
+    }
 }
 
 impl Place {
@@ -52,7 +72,9 @@ impl Place {
         }
         // What words do is not known where a cycle may be in force or not.
         let alike = self.hole == other.hole && self.passes == other.passes;
-        let agreed = |one: Option<f64>, other: Option<f64>| one.filter(|one| Some(*one) == other);
+        let agreed = |one: Option<Told>, other: Option<Told>| {
+            one.filter(|one| Some(*one) == other && one.number().is_some())
+        };
         Self {
             at: At { x: agreed(self.at.x, other.at.x), z: agreed(self.at.z, other.at.z) },
             passes: self.passes.filter(|_| alike),
@@ -75,12 +97,22 @@ impl Place {
 
     /// X, a diameter.
     pub fn x(&self) -> Option<f64> {
-        self.at.x
+        self.at.x?.number()
     }
 
     /// Z.
     pub fn z(&self) -> Option<f64> {
-        self.at.z
+        self.at.z?.number()
+    }
+
+    /// X and Z, or which blocks told them.
+    pub(super) fn told(&self) -> (Option<Told>, Option<Told>) {
+        (self.at.x, self.at.z)
+    }
+
+    /// Gives the next statement a number.
+    pub(super) fn comes_to(&mut self, block: u32) {
+        self.block = block;
     }
 
     /// True where an offset or a shift came after the last move.
@@ -98,17 +130,19 @@ impl Place {
 
     /// Takes what is known of where the cycles begin that read the contour that begins here.
     pub fn knows(&mut self, x: Option<f64>, z: Option<f64>) {
-        self.at = At { x: self.at.x.or(x), z: self.at.z.or(z) };
+        let number = |at: Option<f64>| at.map(Told::Number);
+        self.at = At { x: self.at.x.or(number(x)), z: self.at.z.or(number(z)) };
     }
 
     /// Keeps what agrees with where the cycles begin that read the contour that begins here, and that are come to elsewhere.
     pub fn agrees(&mut self, x: Option<f64>, z: Option<f64>) {
-        self.at = At { x: self.at.x.filter(|at| Some(*at) == x), z: self.at.z.filter(|at| Some(*at) == z) };
+        let same = |at: &Told, other: Option<f64>| at.number().is_some() && at.number() == other;
+        self.at = At { x: self.at.x.filter(|at| same(at, x)), z: self.at.z.filter(|at| same(at, z)) };
     }
 
     /// The tool stands there, whatever the words of the last block are rounded to.
     pub fn lies_at(&mut self, x: f64, z: f64) {
-        self.at = At { x: Some(x), z: Some(z) };
+        self.at = At { x: Some(Told::Number(x)), z: Some(Told::Number(z)) };
     }
 
     /// True inside a contour.
@@ -214,12 +248,14 @@ impl Place {
     fn word(&mut self, item: &NcItem) {
         let NcItem::Word(role, value) = item else { return };
         let steps = self.counts_steps();
-        let by = |from: Option<f64>| {
-            from.zip(value.constant()).map(|(from, by)| ((from + by) * 1e6).round() / 1e6)
+        let by = |from: Option<Told>| {
+            let from = from.and_then(Told::number).zip(value.constant());
+            from.map(|(from, by)| Told::Number(((from + by) * 1e6).round() / 1e6))
         };
+        let told = value.constant().map_or(Told::Block(self.block), Told::Number);
         match role {
-            Role::X if !steps => self.at.x = value.constant(),
-            Role::Z if !steps => self.at.z = value.constant(),
+            Role::X if !steps => self.at.x = Some(told),
+            Role::Z if !steps => self.at.z = Some(told),
             Role::X | Role::StepX => self.at.x = by(self.at.x),
             Role::Z | Role::StepZ => self.at.z = by(self.at.z),
             _ => {}

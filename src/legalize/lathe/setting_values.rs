@@ -24,6 +24,8 @@ pub(super) enum So {
     Lacks(Arc<str>),
     /// Moves are written in the place of the cycle.
     Noted,
+    /// A person must look at it.
+    Open,
     /// The conversion supposes something.
     Supposed(Predicate),
 }
@@ -53,7 +55,7 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
                 }
             }
             let code = match so {
-                So::Supposed(_) => Code::Conditional,
+                So::Supposed(_) | So::Open => Code::Conditional,
                 So::Noted => Code::CycleWrittenOut,
                 So::Refused | So::Lacks(_) => Code::NoEquivalent,
             };
@@ -62,7 +64,7 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
             match so {
                 So::Supposed(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
                 So::Lacks(setting) => context.add(index, finding.lacking(setting)),
-                So::Noted => context.add_once(index, &what, finding),
+                So::Noted | So::Open => context.add_once(index, &what, finding),
                 So::Refused => context.add(index, finding),
             }
         }

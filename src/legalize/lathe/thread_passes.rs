@@ -165,7 +165,7 @@ fn has_singles(nc: &Nc, target: &Control) -> bool {
 }
 
 /// True where single passes of the target are known to run out so many leads: by a setting that the cycle runs out by too.
-fn runs_out_by(run_out: f64, nc: &Nc, target: &Control) -> bool {
+pub(super) fn runs_out_by(run_out: f64, nc: &Nc, target: &Control) -> bool {
     let gives = |row: &crate::dialect::Setting| row.gives == Some(Role::ThreadRunOut);
     let set = setting(target, Op::Threading, Role::ThreadRunOut)
         .filter(|_| target.dialect().settings.iter().any(gives));
@@ -226,7 +226,7 @@ pub(super) fn all(
 }
 
 /// True for the code and the words of a thread's cycle.
-fn is_of_thread(item: &NcItem) -> bool {
+pub(super) fn is_of_thread(item: &NcItem) -> bool {
     match item {
         NcItem::Op(op) => *op == Op::Threading,
         NcItem::Word(role, _) => matches!(
@@ -250,7 +250,7 @@ fn is_of_thread(item: &NcItem) -> bool {
 
 /// The depths of the passes down to `last` (P5, P6): each takes off as much as the first one, or goes as much deeper; none where there
 /// are none, or too many to write.
-fn depths((first, evenly): (f64, bool), least: f64, last: f64) -> Option<Vec<f64>> {
+pub(super) fn depths((first, evenly): (f64, bool), least: f64, last: f64) -> Option<Vec<f64>> {
     if first <= 0.0 || last <= 0.0 || least < 0.0 {
         return None;
     }
@@ -287,7 +287,7 @@ const MOST: usize = 200;
 
 pub(super) const SKIPPED: &str = "a switch may skip its block";
 pub(super) const BESIDE: &str = "another code or word stands in its block";
-const RUN_OUT: &str = "it runs out at its end, no source says by which way, and single passes of the target are not known to run out so";
+pub(super) const RUN_OUT: &str = "it runs out at its end, no source says by which way, and single passes of the target are not known to run out so";
 pub(super) const UNKNOWN: &str = "where it begins, or a number of it, is not known here";
 const FLANKS: &str = "in which order its flanks are cut is not known";
 const DEPTHS: &str = "its depths make no pass, or more than 200";

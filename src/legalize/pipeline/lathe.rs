@@ -135,7 +135,8 @@ pub(super) const LATHE: &[Pass] = &[
         cycle_words::run,
     )
     .when(cycle_words::concerns)
-    .needs(&["steps", "lathe-lengths", "run-outs"]),
+    .needs(&["steps", "lathe-lengths", "run-outs"])
+    .changes_flow(),
     Pass::edits("inch-leads", "threads an inch become leads", inch_leads::run)
         .when(inch_leads::concerns)
         .needs(&["units"]),

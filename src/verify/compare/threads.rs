@@ -61,8 +61,11 @@ pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
 fn at_once(out: &mut Vec<Act<'_>>, first: usize, start: Position) {
     let Some(EventKind::Rapid { from, .. }) = out.get(first).map(|act| &*act.what) else { return };
     let whole = EventKind::Rapid { from: *from, to: start };
+    // Each of them is off by what its own words are rounded to.
+    let rounded = out.iter().skip(first).map(|act| act.rounded).sum();
     out.truncate(first + 1);
     if let Some(act) = out.last_mut() {
+        act.rounded = rounded;
         act.what = What::other(whole);
     }
 }
@@ -73,7 +76,8 @@ fn goes_in(out: &[Act<'_>], start: Position) -> bool {
     match (&*before.what, &*last.what) {
         (EventKind::Rapid { from, to: corner }, EventKind::Rapid { from: there, to }) => {
             let along = |a: &Position, b: &Position, axis: usize| moves_along(a, b) == Some(axis);
-            along(from, corner, Z)
+            // A way along Z may be hardly any.
+            moves_along(from, corner).is_none_or(|along| along == Z)
                 && along(there, to, X)
                 && apart(corner, there).max(apart(to, &start)) <= NEAR
         }

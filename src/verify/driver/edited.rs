@@ -209,6 +209,9 @@ fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
     let about =
         [0.0, 1.0, constant - 1.0, constant + 1.0, constant + 0.5, -constant, constant * 2.0, constant / 2.0];
     let mut seen = BTreeSet::from([(constant + 0.0).to_bits()]);
+    // 1.1 less 1 has digits that nobody writes, and that a control may have an alarm for.
+    let written = |value: f64| if value.abs() < 1e6 { (value * 1e7).round() / 1e7 } else { value };
+    let about = about.map(written);
     let all = about.into_iter().chain(uneven).chain(numbers.iter().copied()).map(|value| value + 0.0);
     all.filter(|value| seen.insert(value.to_bits())).take(VALUES).collect()
 }

@@ -184,7 +184,7 @@ fn pass(
 fn depths(screw: &Screw) -> Result<Vec<f64>, Stop> {
     let last = screw.height - screw.allowance;
     if last <= EXACT {
-        return Err(alarm("PS0316", "the allowance of the thread is as large as its height"));
+        return Err(for_all("PS0316", "the allowance of the thread is as large as its height"));
     }
     let mut out = Vec::new();
     let mut depth = 0.0;
@@ -203,6 +203,11 @@ fn depths(screw: &Screw) -> Result<Vec<f64>, Stop> {
     }
     out.extend((0..screw.finishes).map(|_| screw.height));
     Ok(out)
+}
+
+/// An alarm that the target must have too: it may make the passes by itself.
+fn for_all(number: &str, text: &str) -> Stop {
+    Stop { for_all: true, ..alarm(number, text) }
 }
 
 /// More passes than any thread has.
@@ -298,7 +303,7 @@ fn check_values(
         return Err(alarm("PS0315", "an angle that no thread of this control has"));
     }
     if height <= 0.0 || first <= 0.0 {
-        return Err(alarm("PS0317", "a thread without its height or its first depth"));
+        return Err(for_all("PS0317", "a thread without its height or its first depth"));
     }
     if least > height {
         return Err(alarm("PS0316", "the least depth of the thread is over its height"));
@@ -335,7 +340,7 @@ fn by_settings(
         return Err(Stop::unnamed("the angle of the thread is not from 0 to 120 degrees"));
     }
     if height <= 0.0 || first <= 0.0 {
-        return Err(Stop::unnamed("a thread without its height or its first depth"));
+        return Err(Stop::for_all("a thread without its height or its first depth"));
     }
     if turning.thread_allowance.is_none() || turning.thread_least.is_none() {
         trace.doubt("machine:lathe.thread.settings");

@@ -1,0 +1,75 @@
+//! Cycles whose moves are written out, because the target has none that makes them.
+
+use super::super::cycle_values::{Need, Values};
+use super::super::groove_passes;
+use super::super::setting_values::{Instead, So, written};
+use super::super::settings::{Kind, setting};
+use super::super::thread_loops::Loop;
+use super::super::thread_passes::{UNKNOWN, all};
+use super::{OTHER_UNIT, Run};
+use crate::assume::Predicate;
+use crate::canon::{Op, Role};
+use crate::dialect::Question;
+use crate::ir::Stmt;
+use crate::text::Span;
+
+impl Run<'_> {
+    /// What is said where moves take the place of a cycle for a setting that is known to be another one on the target, or that a cycle before
+    /// needs otherwise; nothing for another setting.
+    pub(super) fn set_otherwise(&self, (.., needs): &Need) -> Option<Instead> {
+        let Predicate::Setting(name, value) = needs else { return None };
+        let before = |(.., so): &(Span, String, String, So)| match so {
+            So::Supposed(Predicate::Setting(other, before)) => other == name && before != value,
+            _ => false,
+        };
+        let stated = self.target.setting(name);
+        (stated.is_some() || self.found.iter().any(before))
+            .then(|| written((name, *value), stated, &self.target.dialect().title))
+    }
+
+    /// The moves of a thread or a groove, in place of its cycle, or the cycle itself where a loop takes its place later; why there are none.
+    pub(super) fn written_out(
+        &mut self,
+        (stmt, at): (&Stmt, (usize, usize)),
+        values: &Values,
+        kind: &Kind,
+    ) -> Result<Vec<Stmt>, &'static str> {
+        if self.in_steps {
+            return Err("words of a place may be increments");
+        }
+        let by_setting = |role: &Role| role.is_length() && setting(self.source, kind.cycle, *role).is_some();
+        if self.other_unit && kind.roles.iter().any(by_setting) {
+            return Err(OTHER_UNIT);
+        }
+        let flanks = self.source.behaviour(Question::ThreadFlanks).map(|row| row.value.as_str());
+        let leading = match flanks {
+            Some("leading.first") => Some(true),
+            Some("trailing.first") => Some(false),
+            _ => None,
+        };
+        if kind.cycle != Op::Threading {
+            return groove_passes::all(stmt, values, self.place, self.target);
+        }
+        let passes = match all(stmt, values, leading, self.place, self.target) {
+            Err(UNKNOWN) => {
+                let from = self.starts.at(&self.place);
+                let found = Loop::of(stmt, values, leading, from, (self.source, self.target))?;
+                if self.vacant || self.starts.may_be_vacant(&self.place) {
+                    self.found.push((stmt.site.span, VACANT.into(), VACANT_HELP.into(), So::Open));
+                }
+                self.loops.push((at, found));
+                vec![stmt.clone()]
+            }
+            made => made?,
+        };
+        let infeed = values.iter().find(|(role, _)| *role == Role::ThreadInfeed);
+        if infeed.and_then(|(_, way)| way.constant()).is_some_and(|way| way % 2.0 == 0.0) {
+            self.flanks.get_or_insert(stmt.site.span);
+        }
+        Ok(passes)
+    }
+}
+
+const VACANT: &str = "this thread becomes a loop of its passes, and a word of it may have no value: the source leaves the word out then, and the loop \
+                      takes 0";
+const VACANT_HELP: &str = "make sure that all its variables have values";
