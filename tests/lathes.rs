@@ -31,7 +31,7 @@ const EFFORT: Effort = Effort {
 };
 
 const FANUC: &str = "machine=\"lathe\";units=\"metric\";decimal_point=\"calculator\";parameters.\"5101.2\"=1;axes=[\"X\",\"Z\",\"C\"]";
-const HAAS: &str = "haas[machine=\"lathe\";units=\"metric\";settings.73=\"0.5\";settings.22=\"0.5\";settings.86=\"0.05\";settings.95=\"0\";\
+const HAAS: &str = "haas[machine=\"lathe\";units=\"metric\";settings.73=\"0.5\";settings.22=\"0.5\";settings.second_home_x=\"-150.\";settings.second_home_z=\"-200.\";settings.86=\"0.05\";settings.95=\"0\";\
                     settings.99=\"0.05\"]";
 
 fn setting(name: &str, otherwise: u64) -> u64 {
@@ -72,7 +72,7 @@ const HOME: &str = "G0 X64. Z3.";
 
 fn part(source: &mut Source, number: u64, out: &mut String) {
     let by_minute = source.below(2) as usize;
-    let _ = match source.below(19) {
+    let _ = match source.below(25) {
         0 => {
             let (end, taper) = (source.pick(&["Z-20.", "W-23."]), source.pick(&["", " R-1.5", " R.8"]));
             writeln!(out, "G90 X58. {end}{taper} F.2\nX56.\nX54.")
@@ -178,12 +178,45 @@ fn part(source: &mut Source, number: u64, out: &mut String) {
             ["F1.25", "F625."][by_minute],
             source.pick(&["", "P200 "])
         ),
+        18 | 22 | 23 => writeln!(out, "{}", machine_part(source)),
+        19 | 20 => writeln!(
+            out,
+            "#2={}\nG50 S[#2*10]\nG96 S#2 M3\nG1 X{}. F.2\nG97 S[#2*4]\nW-3.\n{}",
+            source.pick(&["150", "180."]),
+            source.pick(&["50", "0"]),
+            source.pick(&["G97", "S600", "G50 S2500"])
+        ),
+        21 => writeln!(
+            out,
+            "G0 X50. Z-4. C{}.\nG98 G1 X{}. H{}. F200.\n{}\nG99",
+            source.pick(&["0", "90"]),
+            source.pick(&["46", "50"]),
+            source.pick(&["45", "-30"]),
+            source.pick(&["W-2. C10.", "H15. Z-8.", "U-2. H5.", "C0."])
+        ),
         _ => writeln!(
             out,
             "#1=0\nWHILE[#1LT{}]DO1\nG90 X[60.-#1*2] Z-15. F.2\n#1=#1+1\nEND1",
             1 + source.below(3)
         ),
     };
+}
+
+/// Tools, offsets, zeros and returns.
+fn machine_part(source: &mut Source) -> &'static str {
+    source.pick(&[
+        "T0404\nG42 X58. Z0.\nG1 Z-8. F.2\nG40 G0 X66.\nT0400\nT0101",
+        "G10 P4 U-.05 W.02\nG10 P10004 X-80. Z-40. R.8 Q3\nT0404\nG0 X60.",
+        "G52 Z-1.5\nG0 Z2.\nG1 X58. F.2\nG52 Z0.",
+        "G55 G0 X60. Z1.\nG1 W-2. F.1\nG54",
+        "G10 L2 P2 Z-40.\nG55 G0 X60. Z1.\nG54",
+        "G0\nG53 X-50.\nG28 W0\nG28 U0",
+        "G30 U0 W0\nG0 X60.\nW5.",
+        "G28 U10. W5.\nG28 H0",
+        "T0202 M6\nG0 X60. Z1.\nT0200",
+        "T101\nG0 X60. Z-1. T0404\nT0404 G1 X58. F.2",
+        "#3=404\nT#3\nG0 X60.\nG4 U#3",
+    ])
 }
 
 /// The text on the target; a fault where it has none, or the machine would do something else.
