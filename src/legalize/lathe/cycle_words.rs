@@ -51,8 +51,8 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     rough || super::settings::KINDS.iter().any(differs)
 }
 
-/// Gives each cycle its values in the target's form, and writes out the threads and grooves for which it has none; gives the programs that this
-/// changed.
+/// Gives each cycle its values in the target's form, and writes out the threads and grooves for which it has none; gives the
+/// programs that this changed.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let runs = |stmt: &Stmt| cycle_of(stmt).is_some() || setup_of(stmt).is_some();
     let has = |program: &Program| program.blocks.iter().any(|block| block.stmts.iter().any(runs));

@@ -1,9 +1,10 @@
 //! The passes of a thread whose numbers are computed, as a loop.
 //!
-//! Law: the loop works out depth after depth as the cycle does (docs/lathe.md, P5 to P8), and makes the moves of a pass for each. Side
-//! conditions: the angle and the number of finishing passes are known, and the blocks before say where the cycle begins, as numbers or by
-//! variables that still hold what they held there; where the thread goes no way along X, or along Z, the division for its sense is an alarm. A height or a first depth of 0 or less is an alarm, as it is of the cycle. Error bound: a pass
-//! that would end less than 0.00001 above the last depth of the roughing is that one. Counter-example: a start in increments.
+//! Law: the loop works out depth after depth as the cycle does (docs/lathe.md, P5 to P8), and makes the moves of a pass for each.
+//! Side conditions: the angle and the number of finishing passes are known, and the blocks before say where the cycle begins, as
+//! numbers or by variables that still hold what they held there. Where the thread goes no way along X, or along Z, the division for
+//! its sense is an alarm. A height or a first depth of 0 or less is an alarm, as it is of the cycle. Error bound: a pass that would
+//! end less than 0.00001 above the last depth of the roughing is that one. Counter-example: a start in increments.
 
 mod sums;
 

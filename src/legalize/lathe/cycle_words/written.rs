@@ -14,8 +14,8 @@ use crate::ir::Stmt;
 use crate::text::Span;
 
 impl Run<'_> {
-    /// What is said where moves take the place of a cycle for a setting that is known to be another one on the target, or that a cycle before
-    /// needs otherwise; nothing for another setting.
+    /// What is said where moves take the place of a cycle for a setting that is known to be another one on the target, or that a
+    /// cycle before needs otherwise; nothing for another setting.
     pub(super) fn set_otherwise(&self, (.., needs): &Need) -> Option<Instead> {
         let Predicate::Setting(name, value) = needs else { return None };
         let before = |(.., so): &(Span, String, String, So)| match so {
@@ -27,7 +27,8 @@ impl Run<'_> {
             .then(|| written((name, *value), stated, &self.target.dialect().title))
     }
 
-    /// The moves of a thread or a groove, in place of its cycle, or the cycle itself where a loop takes its place later; why there are none.
+    /// The moves of a thread or a groove, in place of its cycle, or the cycle itself where a loop takes its place later; why there
+    /// are none.
     pub(super) fn written_out(
         &mut self,
         (stmt, at): (&Stmt, (usize, usize)),
