@@ -16,7 +16,7 @@ use super::setting_values::{Found, Instead, So, tell};
 use super::settings::{Kind, block_before, setting, share, stands_in, takes};
 use super::straight::entered_straight;
 use super::thread_loops::{self, Loop};
-use super::thread_passes::{finishes, runs_out as single_passes, says_how};
+use super::thread_passes::says_how;
 use super::threads::{beyond, flanks_are_open};
 use crate::canon::{Group, Op, Role};
 use crate::dialect::{Control, Units};
@@ -26,6 +26,7 @@ use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use starts::{Starts, vacant};
+use written::runs_out;
 
 /// True if there are such cycles, and the target does not take the values from where the source does, or from a setting that is another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -302,9 +303,13 @@ impl Run<'_> {
         let needs = needs.unwrap_or_default();
         let elsewhere: Vec<Instead> = needs.iter().filter_map(|need| self.set_otherwise(need)).collect();
         let mut why = String::new();
-        if (threads.is_some() && given.is_err()) || !elsewhere.is_empty() {
-            let other_unit = if stood_in && self.other_unit { Err(OTHER_UNIT) } else { may };
-            match other_unit.and_then(|()| self.written_out((&stmt, at), &all, kind)) {
+        let may_write = if stood_in && self.other_unit { Err(OTHER_UNIT) } else { may };
+        let finishing = given.as_ref().ok().map(|given| self.finishing(&stmt, given, &all, may));
+        // A thread whose finishing passes cannot follow its cycle may be a loop of all its passes.
+        let beyond =
+            finishing.as_ref().map_or(threads.is_some(), |passes| passes.is_none() && may_write.is_ok());
+        if beyond || !elsewhere.is_empty() {
+            match may_write.and_then(|()| self.written_out((&stmt, at), &all, kind)) {
                 Ok(passes) => {
                     let notes = elsewhere.into_iter().map(|(what, help)| (span, what, help, So::Noted));
                     self.found.extend(notes);
@@ -313,7 +318,7 @@ impl Run<'_> {
                 Err(because) => why = format!("; its moves are not written out: {because}"),
             }
         }
-        let Given { words, setup, finishes: more, angle, needs } = match given {
+        let Given { words, setup, needs, .. } = match given {
             Ok(given) => given,
             Err((what, help)) => {
                 self.refuse(span, &format!("{what}{why}"), &help);
@@ -332,17 +337,10 @@ impl Run<'_> {
                 .into_iter()
                 .map(|(what, help, needs)| (span, what, format!("{help}{why}"), So::Supposed(needs))),
         );
-        // No source says by which way a pass in moves would run out: single passes do it as the cycle does.
-        let runs_out =
-            all.iter().any(|(role, value)| *role == Role::ThreadRunOut && value.constant() != Some(0.0));
-        let passes = match more {
-            0 => Some(Vec::new()),
-            _ if may.is_err() => None,
-            more if runs_out => single_passes(&stmt, (angle, more), self.place, self.target),
-            more => finishes(&stmt, (angle, more), self.place, self.target),
-        };
+        let passes = finishing.flatten();
         if passes.is_none() {
-            let (what, help) = if runs_out { (RUNS_OUT, RUNS_OUT_HELP) } else { (FINISHES, FINISHES_HELP) };
+            let (what, help) =
+                if runs_out(&all) { (RUNS_OUT, RUNS_OUT_HELP) } else { (FINISHES, FINISHES_HELP) };
             self.refuse(span, what, help);
         }
         if let StmtKind::Nc(nc) = &mut stmt.kind {

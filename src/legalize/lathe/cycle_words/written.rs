@@ -1,11 +1,11 @@
 //! Cycles whose moves are written out, because the target has none that makes them.
 
-use super::super::cycle_values::{Need, Values};
+use super::super::cycle_values::{Given, Need, Values};
 use super::super::groove_passes;
 use super::super::setting_values::{Instead, So, written};
 use super::super::settings::{Kind, setting};
 use super::super::thread_loops::Loop;
-use super::super::thread_passes::{UNKNOWN, all};
+use super::super::thread_passes::{UNKNOWN, all, finishes, runs_out as single_passes};
 use super::{OTHER_UNIT, Run};
 use crate::assume::Predicate;
 use crate::canon::{Op, Role};
@@ -69,6 +69,29 @@ impl Run<'_> {
         }
         Ok(passes)
     }
+
+    /// The finishing passes that the target's cycle does not make; none where they cannot follow it.
+    pub(super) fn finishing(
+        &self,
+        stmt: &Stmt,
+        given: &Given,
+        values: &Values,
+        may: Result<(), &'static str>,
+    ) -> Option<Vec<Stmt>> {
+        let passes = (given.angle, given.finishes);
+        match given.finishes {
+            0 => Some(Vec::new()),
+            _ if may.is_err() => None,
+            // No source says by which way a pass in moves would run out: single passes do it as the cycle does.
+            _ if runs_out(values) => single_passes(stmt, passes, self.place, self.target),
+            _ => finishes(stmt, passes, self.place, self.target),
+        }
+    }
+}
+
+/// True of a thread that runs out at its end.
+pub(super) fn runs_out(values: &Values) -> bool {
+    values.iter().any(|(role, value)| *role == Role::ThreadRunOut && value.constant() != Some(0.0))
 }
 
 const VACANT: &str = "this thread becomes a loop of its passes, and a word of it may have no value: the source leaves the word out then, and the loop \
