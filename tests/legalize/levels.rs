@@ -128,7 +128,7 @@ fn same(programs: [String; 4]) -> Result<(), TestCaseError> {
 
 fn config(seed: u64) -> ProptestConfig {
     let rng_seed = proptest::test_runner::RngSeed::Fixed(seed);
-    ProptestConfig { rng_seed, cases: 1000, failure_persistence: None, ..ProptestConfig::default() }
+    ProptestConfig { rng_seed, cases: 500, failure_persistence: None, ..ProptestConfig::default() }
 }
 
 // Two tests, which run side by side.
