@@ -198,7 +198,7 @@ impl Survey<'_> {
 
     /// What it will ask of the machines once all of that is answered, and does not ask now.
     pub fn with_later<T>(&self, look: impl FnOnce(&Questions<'_>) -> T) -> T {
-        // What one answer settles is put together of what is new alone.
+        // What is asked now is taken out first; then questions of one kind become one.
         let mut later = Questions::single(&self.then.iter().map(|then| self.part(then)).collect::<Vec<_>>());
         let now = Questions::single(&[self.part(&self.rest)]);
         let known = |fact: &Fact<'_>| {

@@ -3,7 +3,8 @@
 //! Law: the source goes to the place in machine coordinates whether G90 or G91 is in force. Under G90 each target goes to it too, so
 //! the block gets G90, and G91 comes back after it. Side conditions: G91 is in force for certain; the block has a move, its feed,
 //! the spindle and coolant alone; no block skip, no drilling cycle, no modal call, which would run between the two, and no rotation,
-//! whose centre the first absolute word after it may set. What does not keep them stays, and `under_increments` asks of it. Counter-example: `G91 G53 Z0 M33`, whose M33 may act when the move is done.
+//! whose centre the first absolute word after it may set. What does not keep them stays, and `under_increments` asks of it.
+//! Counter-example: `G91 G53 Z0 M33`, whose M33 may act when the move is done.
 
 use super::under_increments::MOVE;
 use crate::canon::{Group, Op, Role};
@@ -39,9 +40,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let span = stmt.site.span;
         let kept = nc.items.iter().filter(|item| !matches!(item, NcItem::Op(Op::Incremental)));
         let items = [NcItem::Op(Op::Absolute)].into_iter().chain(kept.cloned()).collect();
-        if context.source.behaviour(MOVE).is_some_and(|row| row.value == "unknown") {
-            context.rests_on_source(index, span, MOVE);
-        }
+        context.rests_on_source(index, span, MOVE);
         let after = Nc { items: vec![NcItem::Op(Op::Incremental)] };
         out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site: stmt.site });
         let aside = SourceInfo { span, ..SourceInfo::default() };

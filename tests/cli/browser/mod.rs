@@ -178,7 +178,7 @@ fn a_program_reads_the_hashes_of_a_report() {
     assert_eq!(fs::read_to_string(shop.path().join("r.html")).unwrap(), text);
 }
 
-/// A library of 100 programs. How long it takes to open is printed; `BENCHMARKS.md` has the time for 500.
+/// A library of 100 programs. How long it takes to open is printed.
 #[test]
 fn a_large_report_opens() {
     let shop = TempDir::new().unwrap();

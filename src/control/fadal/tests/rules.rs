@@ -250,6 +250,8 @@ fn g90_and_g91_count_for_the_words_after_them() {
     let expected = [[2.0, 6.0, 0.0], [3.0, 6.0, 0.0], [0.0, 0.0, 0.0]];
     assert_eq!(places.len(), expected.len());
     places.iter().zip(expected).for_each(|(found, expected)| near(*found, expected));
+    // Two sources agree on it: it is a note of the conversion, and no doubt.
+    assert!(!doubts(&run).contains(&"behaviour:distance.code"));
 }
 
 /// The manual's examples (section 12, p. 266), and how far each block turns: 90, then by + to 45, back to 0, by - to 90.

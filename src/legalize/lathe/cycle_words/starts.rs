@@ -70,7 +70,7 @@ impl Starts {
     }
 }
 
-/// True of what only variables change.
+/// True of a value that stays the same until one of its variables changes.
 fn is_kept(value: &Expr) -> bool {
     match value {
         Expr::Number(_) | Expr::Var(_) => true,

@@ -70,7 +70,7 @@ impl Run<'_> {
         Ok(passes)
     }
 
-    /// The finishing passes that the target's cycle does not make; none where they cannot follow it.
+    /// The finishing passes that the target's cycle does not make. Nothing, if they cannot follow it.
     pub(super) fn finishing(
         &self,
         stmt: &Stmt,
