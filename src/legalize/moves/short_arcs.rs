@@ -31,8 +31,8 @@ use crate::legalize::{Context, calls_of};
 use crate::text::Span;
 use plan::{Library, Plan};
 use shape::{Arc, Size};
-pub(in crate::legalize) use starts::stands;
 pub(super) use starts::{Vacant, vacant};
+pub(in crate::legalize) use starts::{keeps, stands};
 use std::collections::BTreeSet;
 use turn::Turn;
 

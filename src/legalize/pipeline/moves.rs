@@ -8,8 +8,9 @@ use crate::legalize::cycles::{hole_circles, pockets, rigid_taps, tap_leads, tapp
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     absolute_places, added_angles, bare_arcs, home, increments, inverse_feeds, long_arcs, machine_feeds,
-    machine_moves, polar, polar_mode, rapid_once, reference, rotary_turns, rotary_ways, rotations,
-    second_home, shaped, shift, short_arcs, under_increments, unit_agrees, unit_checks, units, word_rounds,
+    machine_moves, off_circle, polar, polar_mode, rapid_once, reference, rotary_turns, rotary_ways,
+    rotations, second_home, shaped, shift, short_arcs, under_increments, unit_agrees, unit_checks, units,
+    word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -49,6 +50,8 @@ pub(super) const MOVES: &[Pass] = &[
         .needs(&["polar-mode"]),
     Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
+    Pass::reports("off-circle", "checks that arcs end on their circle", off_circle::run)
+        .when(|c, context| off_circle::concerns(c, context.source)),
     Pass::reports(
         "inverse-feeds",
         "checks that feeds of inverse time are said where they count",

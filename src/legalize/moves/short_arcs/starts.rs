@@ -105,7 +105,7 @@ pub fn stands(nc: &Nc) -> bool {
 }
 
 /// True for what leaves the meaning of coordinates alone, and the tool where words send it.
-fn keeps(op: Op) -> bool {
+pub fn keeps(op: Op) -> bool {
     use Group::*;
     let probes = matches!(op, Op::Probe | Op::ProbeOther | Op::Thread | Op::CycleOther);
     !probes
