@@ -62,6 +62,27 @@ impl Control {
         rows.find(|row| row.head() == Some(head))?.when.as_deref()
     }
 
+    /// The setting, and its value, under which a code takes a word of this letter, where it does not as the control is set.
+    pub fn word_under(&self, code: &str, letter: char) -> Option<(&str, &str)> {
+        let machine = self.machine().name();
+        let takes = |row: &&CodeMeaning| {
+            row.code == code
+                && row.machine.as_deref().is_none_or(|of| of == machine)
+                && row.words.keys().any(|word| address(word) == Some((letter, false)))
+        };
+        self.dialect.other_codes.iter().filter(takes).find_map(|row| self.one_open(row.when.as_deref()?))
+    }
+
+    /// The one condition of several that does not hold, and its first value.
+    fn one_open<'a>(&self, when: &'a str) -> Option<(&'a str, &'a str)> {
+        let holds =
+            |name: &str, values: &str| values.split('|').any(|value| self.setting(name) == Some(value));
+        let conditions = when.split(" and ").filter_map(|one| one.split_once('='));
+        let mut open = conditions.filter(|(name, values)| !holds(name, values));
+        let (name, values) = open.next()?;
+        open.next().is_none().then(|| (name, values.split('|').next().unwrap_or_default()))
+    }
+
     /// True where the word that a row wants stands in the block. A word with any
     /// value does not count where another code of the block reads its letter:
     /// the P of `G54 M98 P8099` is the program.

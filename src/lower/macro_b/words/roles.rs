@@ -244,6 +244,9 @@ impl<'a> Lowering<'a> {
             return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
         }
         let told = Diagnostic::new(Code::NotUnderstood, span, message);
+        if let Some((help, setting)) = self.other_form(word, codes) {
+            return self.findings.add(told.with_help(help).lacking(setting));
+        }
         self.findings.add(match self.spindle_by_word(word, codes) {
             Some((help, asks)) => told.with_help(help).asking_for(asks),
             None => told,

@@ -109,6 +109,22 @@ impl Lowering<'_> {
         self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
     }
 
+    /// What to do about a word that a code of the block takes under another setting of the machine, and that setting.
+    pub fn other_form(
+        &self,
+        word: &syntax::Word,
+        codes: &super::roles::BlockCodes<'_>,
+    ) -> Option<(String, String)> {
+        let (name, value) =
+            codes.iter().find_map(|(_, row)| self.control.word_under(&row.code, word.letter))?;
+        let (kind, number) = name.split_once('.')?;
+        let meaning = &self.control.setting_row(name)?.meaning;
+        let help = format!(
+            "if the machine is set so, write in its profile, under [{kind}s]: \"{number}\" = \"{value}\" ({meaning})"
+        );
+        Some((help, name.to_owned()))
+    }
+
     /// True where X is written as a radius.
     pub fn counts_radii(&self) -> bool {
         self.control.machine() == Machine::Lathe
