@@ -166,3 +166,44 @@ fn the_profiles_of_live_tools_that_ship_are_a_pair() {
          M15\nM135\nM155\nG0 X8. Z4.\nM30",
     );
 }
+
+/// D beside G71 is a word of the older form in one block: the refusal and the survey name the parameter that says so, and answered it
+/// is read.
+#[test]
+fn a_word_of_the_older_form_asks_for_its_parameter() {
+    let shop = Shop::with(&[
+        (
+            "lib/a.nc",
+            "O1\nG20 G99 T0101\nG0 X2.5 Z.1\nG71 P10 Q20 U.02 W.004 D800 F.01\nN10 G0 X1.\nG1 Z-.4\nN20 X2.4\nM30\n",
+        ),
+        (
+            "fanuc.toml",
+            "dialect = \"fanuc\"\nmachine = \"lathe\"\ndecimal_point = \"calculator\"\n[settings]\ngcode_system = \"A\"\n",
+        ),
+        (
+            "answered.toml",
+            "extends = \"fanuc.toml\"\ndialect = \"fanuc\"\n[parameters]\n\"0001.1\" = 1\n5133 = 0.02\n",
+        ),
+        ("haas.toml", "dialect = \"haas\"\nmachine = \"lathe\"\n[settings]\n73 = 0.02\n"),
+    ]);
+    let line = |profile: &str| {
+        format!(
+            "convert lib --from fanuc --to haas --machine {profile} --machine haas.toml --out out --no-verify"
+        )
+    };
+    let run = shop.run(&line("fanuc.toml"));
+    assert_eq!(run.code, 1, "{}{}", run.out, run.err);
+    assert!(run.out.contains("D has no meaning beside G71 P"), "{}", run.out);
+    assert!(run.out.contains("under [parameters]: \"0001.1\" = \"1\""), "{}", run.out);
+    let run = shop.run("survey lib --from fanuc --to haas --machine fanuc.toml --write fanuc.toml");
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(shop.read("fanuc.toml").contains("#? 0001.1 = \"0\" or \"1\""), "{}", shop.read("fanuc.toml"));
+    let run = shop.run(&line("answered.toml"));
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    // 800 steps of 0.0001 inch.
+    assert!(
+        shop.read("out/a.nc").contains("G71 P10 Q20 U0.02 W0.004 F0.01 D0.08"),
+        "{}",
+        shop.read("out/a.nc")
+    );
+}
