@@ -3,7 +3,7 @@
 //! Law: a control that makes the pass once more for such a block gets no word. For another target a word of the pass is written beside it; where the
 //! target alone makes it once more, G0 stands beside it, and the next block that goes on with the pass tells all its words, as it does after a code
 //! for its own block that may take them away. Side condition: the words are numbers, the same on all ways. A block before the first pass of a code
-//! repeats nothing. Counter-example: `X40. M8`, which makes a pass on every control.
+//! repeats nothing. What an empty block does is asked of both. Counter-example: `X40. M8`, which makes a pass on every control.
 
 mod known;
 
@@ -86,6 +86,12 @@ struct Walk<'w, 'c> {
 impl Walk<'_, '_> {
     /// Looks at a statement, with what is in force after it and what was known before it; true where something was written.
     fn stmt(&mut self, stmt: &mut Stmt, state: &Modal, before: Known) -> bool {
+        if is_empty(stmt) {
+            if !before.is_untold() && state.op(Group::Motion).is_some_and(Op::is_pass) {
+                self.empty(stmt);
+            }
+            return false;
+        }
         let StmtKind::Nc(nc) = &stmt.kind else { return false };
         if nc.ops().any(|op| op.group() == Group::Motion) {
             return false;
@@ -101,6 +107,14 @@ impl Walk<'_, '_> {
             }
             _ => false,
         }
+    }
+
+    /// A block without a word, or with F alone.
+    fn empty(&mut self, stmt: &Stmt) {
+        let (index, span) = (self.index, stmt.site.span);
+        self.context.rests_on_source(index, span, Question::PassEmpty);
+        self.context.rests_on_target(index, span, Question::PassEmpty);
+        self.context.must_agree(index, span, Question::PassEmpty);
     }
 
     /// M, S or T alone.
@@ -183,6 +197,15 @@ impl Walk<'_, '_> {
     fn say(&mut self, stmt: &Stmt) {
         let what = "the source makes the pass in force once more here; it is written for the target";
         self.context.add(self.index, Diagnostic::new(Code::WrittenOut, stmt.site.span, what));
+    }
+}
+
+/// True for a block of nothing, of a remark, of its number, or of F alone.
+fn is_empty(stmt: &Stmt) -> bool {
+    match &stmt.kind {
+        StmtKind::Comment => true,
+        StmtKind::Nc(nc) => nc.items.iter().all(|item| role(item) == Some(Role::Feed)),
+        _ => false,
     }
 }
 
