@@ -163,6 +163,15 @@ fn a_lathe_is_doubted_where_it_is_no_mill() {
     assert!(!mill.contains(feed) && !mill.contains(tool), "{mill:?}");
 }
 
+/// A turret that turns while the slide moves, or after it, is another machine; the offset of the same station turns nothing.
+#[test]
+fn a_turret_that_turns_beside_a_move_is_doubted() {
+    let fact = "machine:lathe.tool.beside.move";
+    let lathe = "machine = \"lathe\"\n";
+    assert!(unsure(lathe, "O1\nT0101\nG0X10.T0202\nM30\n").contains(fact));
+    assert!(!unsure(lathe, "O1\nT0101\nG0X10.T0100\nT0202\nG0X20.\nM30\n").contains(fact));
+}
+
 /// M6 stands beside its T in every program of the manual (seed 000:457): what it does alone no source says.
 #[test]
 fn a_tool_change_without_its_tool_is_doubted_of_a_fadal() {

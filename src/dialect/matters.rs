@@ -78,6 +78,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:lathe.thread.runout", "a thread without a setting for its run-out has none"),
     ("machine:lathe.thread.settings", "settings of threads that the profile does not give are 0"),
     (
+        "machine:lathe.tool.beside.move",
+        "the turret turns before the move of its block, and not with it or after it",
+    ),
+    (
         "machine:lathe.tool.offset",
         "a tool offset of a lathe counts from the next absolute word on, and X of it is a diameter",
     ),

@@ -21,6 +21,9 @@ pub fn index(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     machine.tool_ready = station;
     if station != 0.0 && station != machine.tool {
         machine.tool = station;
+        if command.axes().next().is_some() {
+            trace.doubt("machine:lathe.tool.beside.move");
+        }
         trace.push(EventKind::ToolChange { tool: station });
     }
     let before = machine.lathe.offset;
