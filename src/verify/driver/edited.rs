@@ -3,9 +3,11 @@
 //! A literal that a main program assigns at its head is what its operator edits. Where it decides a branch, no
 //! circumstances go the other way; so both texts are run anew with another literal there. Which literal of the target is
 //! the same one is found without the compiler: it is the first thing that the target's program assigns to the register that
-//! the lock has for the variable, and it has the same value. Ways that the source goes so count where both sides did the
+//! the lock has for the variable, and it has the same value; of a local, whose register the lock does not name, one of those
+//! with that value for which both sides do the same. Ways that the source goes so count where both sides did the
 //! same. Where they part, the program is undecided: a person sees whether that literal is the one.
 
+use super::summary::lacks_locals;
 use super::verifier::Verifier;
 use crate::control::ProgramRef;
 use crate::dialect::Control;
@@ -22,6 +24,9 @@ const CONSTANTS: usize = 16;
 
 /// Values that each is given, at the most.
 const VALUES: usize = 32;
+
+/// Registers that are tried where the lock does not say which holds a constant, at the most.
+const TWINS: usize = 4;
 
 /// Edits for ways that the target alone has left.
 const FOR_THE_TARGET: usize = 48;
@@ -51,40 +56,59 @@ impl Verifier<'_, '_> {
         let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
         for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
             let named = names.variable(&constant.name, source.control, target.control);
-            let twin = theirs.iter().find(|(_, twin)| Some(&twin.name) == named.as_ref());
-            let Some(twin) = twin.filter(|(_, twin)| twin.value == constant.value) else { continue };
-            for value in values(constant.value, &numbers) {
-                if self.went_every_way() || steps == 0 || for_target == 0 || self.is_out_of_time() {
-                    return;
+            let (is_named, alike) = (named.is_some(), |twin: &Constant| twin.value == constant.value);
+            let twins: Vec<_> = match named {
+                Some(named) => {
+                    let twin = theirs.iter().find(|(_, twin)| twin.name == named);
+                    twin.filter(|(_, twin)| alike(twin)).into_iter().collect()
                 }
-                for_target -= usize::from(self.coverage.is_complete());
-                self.edit(there, (&constant, twin), value, &mut steps);
+                // The registers of locals have no names in the lock: each that has the value may be it.
+                None if lacks_locals(self.job) => {
+                    let held = |twin: &Constant| names.of_source(&twin.name, source.control, target.control);
+                    let unnamed = theirs.iter().filter(|(_, twin)| alike(twin) && held(twin).is_none());
+                    unnamed.take(TWINS).collect()
+                }
+                None => continue,
+            };
+            for value in values(constant.value, &numbers) {
+                for twin in &twins {
+                    if self.went_every_way() || steps == 0 || for_target == 0 || self.is_out_of_time() {
+                        return;
+                    }
+                    for_target -= usize::from(self.coverage.is_complete());
+                    if self.edit(there, (&constant, twin), (value, is_named), &mut steps) {
+                        break;
+                    }
+                }
             }
         }
     }
 
-    /// Runs both sides with another literal, where the source goes a new way by it.
+    /// Runs both sides with another literal, where the source goes a new way by it. A difference counts where the lock has named the
+    /// register; else it is another one. True where both did the same.
     fn edit(
         &mut self,
         there: ProgramRef,
         (ours, (part, theirs)): (&Constant, &(ProgramRef, Constant)),
-        value: f64,
+        (value, is_named): (f64, bool),
         steps: &mut u64,
-    ) {
+    ) -> bool {
         let Job { source, target, names, assumptions, effort, spent } = *self.job;
-        let Some(text) = EditedText::new(&source.texts(), self.program, ours.span, value) else { return };
+        let Some(text) = EditedText::new(&source.texts(), self.program, ours.span, value) else {
+            return false;
+        };
         let blocks = text.parse(&source.texts());
-        let Some(new_source) = source.edited(self.program, &text, text.own(&blocks)) else { return };
+        let Some(new_source) = source.edited(self.program, &text, text.own(&blocks)) else { return false };
         let told = Constant { value, ..ours.clone() };
         if !constants(&new_source, self.program, true)
             .iter()
             .any(|c| (&c.name, c.value) == (&told.name, value))
         {
-            return;
+            return false;
         }
         let found = inputs(&new_source, self.program, target);
         let inch = unit(source, target).or(found.inch);
-        let Some(mut scenario) = Proposals::new(&found, effort).next() else { return };
+        let Some(mut scenario) = Proposals::new(&found, effort).next() else { return false };
         scenario.inch = inch;
         self.given.start(&mut scenario);
         let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
@@ -92,14 +116,14 @@ impl Verifier<'_, '_> {
         let mut coverage = self.coverage.clone();
         let new = coverage.add_moved(&run, &back(&text, self.program.file));
         if !new && self.target_coverage.is_complete() {
-            return;
+            return false;
         }
-        let Some(other) = EditedText::new(&target.texts(), *part, theirs.span, value) else { return };
+        let Some(other) = EditedText::new(&target.texts(), *part, theirs.span, value) else { return false };
         let blocks = other.parse(&target.texts());
-        let Some(new_target) = target.edited(*part, &other, other.own(&blocks)) else { return };
+        let Some(new_target) = target.edited(*part, &other, other.own(&blocks)) else { return false };
         new_target.take_over(target, new_source.stands_as(source));
         if !constants(&new_target, *part, false).iter().any(|c| c.name == theirs.name && c.value == value) {
-            return;
+            return false;
         }
         let entered = new_source.links().entered(&run).chain([self.program]);
         let assumptions = moved(assumptions, entered, self.program, |place| text.now(place));
@@ -110,7 +134,7 @@ impl Verifier<'_, '_> {
         let mut target_coverage = self.target_coverage.clone();
         let new_there = target_coverage.add_gone(&pair.target_coverage, &back(&other, part.file));
         if !new_there && !new && pair.witness.is_none() {
-            return;
+            return false;
         }
         let edit = Edit {
             variable: ours.name.clone(),
@@ -120,15 +144,19 @@ impl Verifier<'_, '_> {
             value,
         };
         if let Some(witness) = &pair.witness {
+            if !is_named {
+                return false;
+            }
             let text = format!(
                 "with {value} for {} in line {} and for {} in line {} they differ: {}",
                 edit.variable, edit.line, edit.register, edit.target_line, witness.what
             );
-            return self.because(Why::Edited, &text);
+            self.because(Why::Edited, &text);
+            return false;
         }
         // What comes to no end on both sides, as a stop that is jumped back to, is compared as far as it went.
         if (pair.compared == 0 && pair.endless.is_empty()) || !pair.reasons.is_empty() {
-            return;
+            return false;
         }
         self.coverage = coverage;
         self.target_coverage = target_coverage;
@@ -140,6 +168,7 @@ impl Verifier<'_, '_> {
             self.unconfirmed.entry(fact).or_insert(text);
         }
         self.edits.push(edit);
+        true
     }
 }
 

@@ -1,7 +1,7 @@
 //! Constants at a program's head that decide a branch, edited on both sides.
 
-use super::run;
-use crate::verify::{Outcome, ProgramCertificate, Why};
+use super::{named, run};
+use crate::verify::{Outcome, ProgramCertificate, SymbolMap, Why};
 
 const SOURCE: &str = "O1\n#500=1(SIDE)\nG90 G0 X0.\nIF[#500EQ1]GOTO10\nX2.5\nGOTO20\nN10 X7.\nN20 M30\n";
 
@@ -30,6 +30,31 @@ fn a_fault_behind_the_constant_shows() {
     assert_eq!(found.outcome, Outcome::Undecided);
     assert!(has(&found, Why::Edited) && has(&found, Why::NotReached), "{found:#?}");
     assert!(found.edits.is_empty() && found.branches_covered == 1);
+}
+
+/// The register of a local is none that the lock names. The first one with its value decides nothing.
+#[test]
+fn a_local_is_any_register_with_its_value_for_which_both_do_the_same() {
+    let source = SOURCE.replace("#500", "#1");
+    let target = |other: &str| {
+        format!(
+            "N1 O1\nN2 #V9=1.\nN3 #V1=1.\nN4 G90 G0 X0.\nN5 #IF V1 EQ 1. THEN GOTO :N10\nN6 {other}\nN7 #GOTO :N20\nN8 #:N10\nN9 X7.\n\
+             N10 #:N20\nN11 M2\n"
+        )
+    };
+    let run = |target: &str| {
+        let names = SymbolMap { scratch: [1, 9].into(), ..SymbolMap::default() };
+        named(("fanuc", &source), ("fadal", target), names).remove(0)
+    };
+    let found = run(&target("X2.5"));
+    assert!(!has(&found, Why::NotReached) && !has(&found, Why::Edited), "{found:#?}");
+    let [edit] = found.edits.as_slice() else { panic!("{:?}", found.edits) };
+    assert_eq!((&*edit.variable, edit.line, &*edit.register, edit.target_line), ("#1", 2, "V1", 3));
+    let found = run(&target("X2.25"));
+    assert!(
+        found.edits.is_empty() && has(&found, Why::NotReached) && !has(&found, Why::Edited),
+        "{found:#?}"
+    );
 }
 
 #[test]
