@@ -44,17 +44,28 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 let told = Diagnostic::new(Code::NoEquivalent, span, what.as_str()).with_help(help);
                 context.add_once(index, &format!("{what} {:?}", stmt.site.span), told);
             }
-            if let Err(what) = check(program, nc, context.target.text().sequence_max) {
+            if let Err((what, help)) = check(program, nc, context.target.text().sequence_max) {
                 // The pass runs twice.
                 let fact = format!("{what} {:?}", stmt.site.span);
-                context.add_once(index, &fact, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+                let told = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
+                context.add_once(index, &fact, told.with_help(help));
             }
         }
     }
 }
 
+/// What is wrong with a contour, and what to do about it.
+type Fault = (String, &'static str);
+
+const NUMBERS_HELP: &str =
+    "write P and Q as the sequence numbers of the first and the last block of the contour";
+const ORDER_HELP: &str =
+    "give the first block of the contour the number that P names, and the last one the number that Q names";
+const TWICE_HELP: &str = "give one of the blocks another number";
+const STRAIGHT_HELP: &str = "write the blocks of the contour one after another: where a condition chooses between two contours, write the cycle with each of them";
+
 /// `most` is the last sequence number of the target.
-fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
+fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), Fault> {
     let number = |role: Role| {
         let value = nc.word(role).and_then(|value| value.constant());
         value.filter(|value| *value > 0.0).map(|value| value as u32)
@@ -62,41 +73,46 @@ fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
     let (first, last) = match (number(Role::ContourFirst), number(Role::ContourLast)) {
         (Some(first), Some(last)) => (first, last),
         (Some(_), None) if nc.word(Role::ContourLast).is_none() => {
-            return Err("the cycle has no Q, the number of the last block of its contour".into());
+            return Err((
+                "the cycle has no Q, the number of the last block of its contour".into(),
+                NUMBERS_HELP,
+            ));
         }
         _ => {
-            return Err(
-                "the cycle does not say as numbers with which block its contour begins and ends".into()
-            );
+            let what = "the cycle does not say as numbers with which block its contour begins and ends";
+            return Err((what.into(), NUMBERS_HELP));
         }
     };
     if let Some(number) = [first, last].into_iter().find(|number| *number > most) {
-        return Err(format!(
-            "the target's sequence numbers end at {most}, and N{number} begins or ends a contour: give its blocks lower numbers"
-        ));
+        let what =
+            format!("the target's sequence numbers end at {most}, and N{number} begins or ends a contour");
+        return Err((what, "give the blocks of the contour lower numbers"));
     }
     let from = find(program, first)?;
     let to = find(program, last)?;
     if from > to {
-        return Err(format!("N{last}, the end of the contour, stands before N{first}, its beginning"));
+        let what = format!("N{last}, the end of the contour, stands before N{first}, its beginning");
+        return Err((what, ORDER_HELP));
     }
     if from == to {
-        return Err(format!(
+        let what = format!(
             "P and Q both name N{first}: no source says what the cycle does with a contour of one block"
-        ));
+        );
+        return Err((what, ORDER_HELP));
     }
     let begins = program.blocks.get(from.0).and_then(|block| block.stmts.get(from.1));
     let moves = |nc: &Nc| nc.has(Op::Rapid) || nc.has(Op::Linear);
     if !begins.is_some_and(|stmt| stmt.kind.nc().is_some_and(moves)) {
-        return Err(format!(
+        let what = format!(
             "N{first}, the first block of the contour, has no G0 or G1 of its own, which the cycle needs"
-        ));
+        );
+        return Err((what, "write G0 or G1 into that block"));
     }
     let goes_on = |at: usize| program.blocks.get(at).is_some_and(|b| goes_on_to(&b.term.kind, at + 1));
     if !(from.0..to.0).all(goes_on) {
-        return Err(format!(
-            "a jump or a call stands between N{first} and N{last}: a contour goes straight through"
-        ));
+        let what =
+            format!("a jump or a call stands between N{first} and N{last}: a contour goes straight through");
+        return Err((what, STRAIGHT_HELP));
     }
     let part = |at: usize| {
         let stmts = program.blocks.get(at).map_or(&[][..], |block| &block.stmts);
@@ -105,13 +121,15 @@ fn check(program: &Program, nc: &Nc, most: u32) -> Result<(), String> {
         stmts.get(begin..end).unwrap_or_default()
     };
     if let Some(what) = (from.0..=to.0).flat_map(part).find_map(foreign) {
-        return Err(format!("{what} stands between N{first} and N{last}: a contour has only moves"));
+        let what = format!("{what} stands between N{first} and N{last}: a contour has only moves");
+        return Err((what, "take it out of the contour, and write it before the cycle or after the contour"));
     }
     if is_split(program, to) {
-        return Err(format!(
+        let what = format!(
             "an M code in N{last}, the last block of the contour, acts otherwise beside a move on the target, and in a block of its own it \
-             would stand after the contour: take it out, and write it after the block that finishes the contour"
-        ));
+             would stand after the contour"
+        );
+        return Err((what, "take it out, and write it after the block that finishes the contour"));
     }
     Ok(())
 }
@@ -232,7 +250,7 @@ pub(super) fn contour<'p>(program: &'p Program, nc: &Nc) -> impl Iterator<Item =
 }
 
 /// The only block and statement with a sequence number.
-fn find(program: &Program, number: u32) -> Result<(usize, usize), String> {
+fn find(program: &Program, number: u32) -> Result<(usize, usize), Fault> {
     let mut all = program.blocks.iter().enumerate().flat_map(|(at, block)| {
         let with =
             block.stmts.iter().enumerate().filter(|(_, stmt)| stmt.site.sequence.get() == Some(number));
@@ -240,8 +258,11 @@ fn find(program: &Program, number: u32) -> Result<(usize, usize), String> {
     });
     match (all.next(), all.next()) {
         (Some(place), None) => Ok(place),
-        (None, _) => Err(format!("no block of this program has the number N{number}")),
-        _ => Err(format!("N{number} stands more than once: which block the cycle takes is not sure")),
+        (None, _) => Err((format!("no block of this program has the number N{number}"), ORDER_HELP)),
+        _ => Err((
+            format!("N{number} stands more than once: which block the cycle takes is not sure"),
+            TWICE_HELP,
+        )),
     }
 }
 
