@@ -51,7 +51,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let begins = begins(nc);
                 for role in untaken(nc, op, context.target) {
                     let what = word_too_much(op, role, context);
-                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                    let told = Diagnostic::new(Code::NoEquivalent, span, what);
+                    context.add(index, told.with_help(TOO_MUCH_HELP));
                 }
                 if !begins {
                     continue;
@@ -247,6 +248,9 @@ fn letter_is_another(op: Op, control: &Control) -> bool {
 fn takes(control: &Control, op: Op, role: Role) -> bool {
     control.code_for(op, &BTreeMap::new()).is_some_and(|row| row.takes(role))
 }
+
+const TOO_MUCH_HELP: &str =
+    "take the word out if the part does not need it, or write this hole as moves (G0 and G1) in the source";
 
 /// A word of the source's cycle that the target's has nothing like, by the codes and the letter that the programmer knows.
 fn word_too_much(op: Op, role: Role, context: &Context<'_>) -> String {

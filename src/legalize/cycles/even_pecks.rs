@@ -40,7 +40,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     changed
 }
 
-fn pecks(op: Op) -> bool {
+pub(super) fn pecks(op: Op) -> bool {
     matches!(op, Op::CyclePeck | Op::CycleChipBreak)
 }
 
@@ -51,13 +51,13 @@ fn tells_later(nc: &Nc) -> bool {
 }
 
 /// True if the control tells this cycle one depth of all pecks, and cannot tell it a first one.
-fn by_depth(target: &Control, cycle: Op) -> bool {
+pub(super) fn by_depth(target: &Control, cycle: Op) -> bool {
     let row = target.code_for(cycle, &BTreeMap::new());
     row.is_some_and(|row| row.takes(Role::CycleQ) && !row.takes(Role::PeckFirst))
 }
 
 /// The depth of all pecks, where it is one.
-fn even(nc: &Nc) -> Option<f64> {
+pub(super) fn even(nc: &Nc) -> Option<f64> {
     let number = |role| nc.word(role).map(|word| word.constant());
     let first = number(Role::PeckFirst)??;
     let (less, least) = (number(Role::PeckLess), number(Role::PeckLeast));

@@ -21,3 +21,4 @@ pub(in crate::legalize) mod stored_places;
 pub(in crate::legalize) mod tap_leads;
 pub(in crate::legalize) mod tapping;
 pub(in crate::legalize) mod turn_feeds;
+pub(in crate::legalize) mod uneven_pecks;

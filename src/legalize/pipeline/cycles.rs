@@ -6,6 +6,7 @@ use crate::canon::{Op, Role};
 use crate::legalize::codes::{lookahead, waits};
 use crate::legalize::cycles::{
     cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, hole_moves, missing_pecks,
+    uneven_pecks,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::operator::alarms;
@@ -27,9 +28,17 @@ pub(super) const CYCLES: &[Pass] = &[
         .when(|c, context| is_mill(context) && drills(c) && hole_moves::replaces(context.target))
         .needs(&["modal-calls", "units", "tool-lengths"])
         .changes_flow(),
+    Pass::rewrites(
+        "uneven-pecks",
+        "pecks that become less are moves, where all have one depth",
+        uneven_pecks::run,
+    )
+    .when(|c, context| is_mill(context) && uneven_pecks::concerns(c) && !hole_moves::replaces(context.target))
+    .needs(&["modal-calls", "units", "tool-lengths"])
+    .changes_flow(),
     Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell))
-        .needs(&["hole-moves"]),
+        .needs(&["hole-moves", "uneven-pecks"]),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
         .when(|c, context| is_mill(context) && drills(c) && !hole_moves::replaces(context.target)),
     Pass::rewrites(

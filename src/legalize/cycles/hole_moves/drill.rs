@@ -3,7 +3,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::Modal;
 use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::{Class, Expr, Nc, Var};
+use crate::ir::{Class, Expr, Nc, NcItem, Var};
 
 /// What a cycle is told, by the number that its register has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,16 +78,21 @@ pub(super) struct Drill {
     /// Whether the retract plane and the bottom were told in incremental words; none if the ways to it disagree.
     pub incremental: [Option<bool>; 2],
     pub height: Height,
+    /// The first peck, by how much each later one is less, and the least one, where they are told.
+    pub uneven: [Option<f64>; 3],
     /// A word that no moves are known for.
     pub strange: bool,
 }
+
+/// The words of [`Drill::uneven`].
+const UNEVEN: [Role; 3] = [Role::PeckFirst, Role::PeckLess, Role::PeckLeast];
 
 impl Drill {
     fn new(op: Op, initial: Value) -> Self {
         let mut told = [Value::None; 6];
         told[Told::Initial as usize] = initial;
         let incremental = [Some(true), Some(false)];
-        Self { op: Some(op), told, incremental, height: Height::Initial, strange: false }
+        Self { op: Some(op), told, incremental, height: Height::Initial, uneven: [None; 3], strange: false }
     }
 
     pub fn told(&self, what: Told) -> Value {
@@ -109,7 +114,7 @@ impl Drill {
         if self.height != other.height {
             self.height = Height::Unknown;
         }
-        self.strange |= other.strange;
+        self.strange |= other.strange || self.uneven != other.uneven;
         self
     }
 
@@ -135,10 +140,13 @@ impl Drill {
                 *kind = incremental;
             }
         }
-        self.strange |= nc.items.iter().any(|item| {
-            use Role::{CycleI, CycleJ, PeckFirst, PeckLeast, PeckLess};
-            matches!(item, crate::ir::NcItem::Word(PeckFirst | PeckLess | PeckLeast | CycleI | CycleJ, _))
-        });
+        for (told, role) in self.uneven.iter_mut().zip(UNEVEN) {
+            if let Some(word) = nc.word(role) {
+                *told = word.constant();
+                self.strange |= told.is_none();
+            }
+        }
+        self.strange |= [Role::CycleI, Role::CycleJ].iter().any(|role| nc.word(*role).is_some());
     }
 }
 
@@ -332,6 +340,19 @@ pub(super) fn unplaced(nc: &Nc) -> Option<Vec<&Expr>> {
     let place: Vec<&Expr> = [Role::X, Role::Y].into_iter().filter_map(|role| nc.word(role)).collect();
     let open = !place.is_empty() && place.iter().all(|word| word.may_be_vacant());
     (open && !nc.has(Op::CycleHere) && !nc.ops().any(Op::is_cycle)).then_some(place)
+}
+
+/// True for what a cycle takes out of its block.
+pub(super) fn tells(item: &NcItem) -> bool {
+    match item {
+        NcItem::Op(op) => op.is_cycle() || *op == Op::CycleHere,
+        NcItem::Word(role, _) => {
+            *role == Role::Repeat
+                || UNEVEN.contains(role)
+                || Told::ALL.iter().any(|what| what.role() == Some(*role))
+        }
+        NcItem::Code(..) => false,
+    }
 }
 
 /// True for a block that neither moves nor tells a cycle anything.

@@ -31,11 +31,11 @@ use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
 use crate::text::Span;
-use drill::{Cycle, Drill, Height, Known, Runs, Told, unplaced};
+use drill::{Cycle, Drill, Height, Known, Runs, Told, tells, unplaced};
 use flow::{Flow, Vacancies, named_unit, says_motion, step};
 use moves::{Hole, Part, hole};
 use pen::{Pen, push};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// True if no cycle of the target is told a retract plane.
 pub fn replaces(target: &Control) -> bool {
@@ -47,6 +47,12 @@ pub fn replaces(target: &Control) -> bool {
 
 /// Writes holes as moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    context.drills = true;
+    write(module, context, None);
+}
+
+/// Writes holes as moves, of these programs alone, if any are named: then only where no register is needed for it.
+pub(super) fn write(module: &mut Module, context: &mut Context<'_>, only: Option<&BTreeSet<usize>>) {
     let facts = context.modal_facts(module);
     let value = |question| context.source.behaviour(question).map(|row| row.value.as_str());
     let rules = Runs {
@@ -61,8 +67,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let known = OverCalls::of(module, &flow);
     let held = flow.held(module, &known);
     let inch = named_unit(module);
-    context.drills = true;
+    if only.is_some() && held.contains(&true) {
+        return;
+    }
     for (index, program) in module.programs.iter_mut().enumerate() {
+        if only.is_some_and(|only| !only.contains(&index)) {
+            continue;
+        }
         let mut writer = Writer {
             index,
             facts: &facts,
@@ -74,6 +85,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             vacancies: &vacancies,
             inch,
             vacant: false,
+            whole: only.is_none(),
             context,
         };
         writer.program(program);
@@ -95,6 +107,8 @@ struct Writer<'w, 'c> {
     inch: Option<bool>,
     /// True if a word of the block at hand may be vacant.
     vacant: bool,
+    /// True if the target has no cycles, and no code of a return plane.
+    whole: bool,
     context: &'w mut Context<'c>,
 }
 
@@ -166,7 +180,7 @@ impl Writer<'_, '_> {
         let Stmt { kind, site } = stmt;
         let StmtKind::Nc(mut nc) = kind else { return builder.push(kind, site) };
         let span = site.span;
-        nc.items.retain(|item| !matches!(item, NcItem::Op(Op::ReturnR | Op::ReturnInitial)));
+        nc.items.retain(|item| !self.whole || !matches!(item, NcItem::Op(Op::ReturnR | Op::ReturnInitial)));
         if nc.has(Op::CycleOff) && matches!(before.cycle, Cycle::On(_) | Cycle::Maybe(_) | Cycle::Mixed) {
             self.end(&mut nc, was, span, says_motion);
         }
@@ -180,7 +194,7 @@ impl Writer<'_, '_> {
 
     /// Ends a cycle: the interpolation of before it counts again.
     fn end(&mut self, nc: &mut Nc, was: &Modal, span: Span, says_motion: bool) {
-        nc.items.retain(|item| *item != NcItem::Op(Op::CycleOff));
+        nc.items.retain(|item| !self.whole || *item != NcItem::Op(Op::CycleOff));
         let named = nc.ops().any(|op| op.group() == Group::Motion);
         match was.op(Group::Motion) {
             _ if named => {}
@@ -379,16 +393,5 @@ impl Writer<'_, '_> {
         if hole.switch {
             push(pen.builder, vec![NcItem::Op(Op::Incremental)], aside());
         }
-    }
-}
-
-/// True for what a cycle takes out of its block.
-fn tells(item: &NcItem) -> bool {
-    match item {
-        NcItem::Op(op) => op.is_cycle() || *op == Op::CycleHere,
-        NcItem::Word(role, _) => {
-            *role == Role::Repeat || Told::ALL.iter().any(|what| what.role() == Some(*role))
-        }
-        NcItem::Code(..) => false,
     }
 }

@@ -34,6 +34,8 @@ const INITIAL: &str =
 const DISTANCE: &str = "it is not known whether G90 or G91 is in force at this cycle: write one before it";
 pub(super) const CLEAR: &str = "the target has no such cycle, and how far over the last depth the source begins each step is a setting of the \
      machine: give it to the source's profile, [behaviours] \"cycle.peck.clearance\" = millimetres";
+const UNEVEN: &str = "pecks that become less are written as moves, and these are too many, or a plane of theirs is not a number here: \
+     write G0 and G1 moves, or a depth of its own for all pecks (Q)";
 const STEPS: &str =
     "a peck drill in incremental words whose numbers are computed: write R and Z in absolute coordinates";
 
@@ -162,9 +164,25 @@ pub(super) fn hole(
                 Value::Is(clear) => clear.abs(),
                 _ => return Err(DEPTH),
             };
-            let peck = told(Told::Peck).ok_or(DEPTH)?;
             let out = op == Op::CyclePeck;
-            pecks(&mut parts, planes.as_ref(), (peck, clear, out), &z)?;
+            match drill.uneven {
+                // What Q says beside them nobody knows.
+                [Some(_), ..] if drill.told(Told::Peck) != Value::None => return Err(STRANGE),
+                [Some(first), less, least] => {
+                    let by = (first, less.unwrap_or(0.0), least.unwrap_or(0.0));
+                    let ends = planes.as_ref().map(|planes| (&planes.retract, &planes.bottom));
+                    let (from, to) =
+                        ends.map_or((Some(0.0), z.constant()), |(r, z)| (r.constant(), z.constant()));
+                    let (from, to) = (from.ok_or(UNEVEN)?, to.ok_or(UNEVEN)?);
+                    let depths = depths((to - from).abs(), by).ok_or(UNEVEN)?;
+                    one_by_one(&mut parts, (from, to, planes.is_some()), &depths, (clear, out));
+                }
+                [None, None, None] => {
+                    let peck = told(Told::Peck).ok_or(DEPTH)?;
+                    pecks(&mut parts, planes.as_ref(), (peck, clear, out), &z)?;
+                }
+                [None, ..] => return Err(STRANGE),
+            }
             parts.extend(dwell);
             parts.push(Part::Move(false, up));
         }
@@ -174,8 +192,11 @@ pub(super) fn hole(
     Ok(Hole { switch: !absolute && !relative, parts })
 }
 
-/// Most steps that are written one by one.
+/// Most steps that are written one by one, where a loop could do it.
 const MOST: usize = 12;
+
+/// Most steps of pecks that become less, of which no loop is written.
+const MOST_UNEVEN: usize = 60;
 
 /// The steps down to the bottom.
 fn pecks(
@@ -194,7 +215,7 @@ fn pecks(
         parts.push(Part::Pecks { retract: retract.clone(), bottom: bottom.clone(), peck, clear, out });
         return Ok(());
     };
-    let (whole, down) = ((to - from).abs(), (to - from).signum());
+    let whole = (to - from).abs();
     let step = if step == 0.0 { whole } else { step.abs() };
     if whole / step > MOST as f64 {
         if planes.is_none() {
@@ -203,24 +224,51 @@ fn pecks(
         parts.push(Part::Pecks { retract: retract.clone(), bottom: bottom.clone(), peck, clear, out });
         return Ok(());
     }
-    let (mut deep, mut at) = (0.0, from);
+    let depths = depths(whole, (step, 0.0, 0.0)).ok_or(STEPS)?;
+    one_by_one(parts, (from, to, planes.is_some()), &depths, (clear, out));
+    Ok(())
+}
+
+/// How deep each peck ends: the first one, less for each later one, down to the least. None where they are too many to write.
+fn depths(whole: f64, (first, less, least): (f64, f64, f64)) -> Option<Vec<f64>> {
+    let (mut step, mut deep, mut all) = (first.abs(), 0.0, Vec::new());
+    while deep < whole {
+        // A step of nothing takes the rest.
+        let next = if step > 0.0 { deep + step } else { whole };
+        deep = if next >= whole - 1e-9 { whole } else { next };
+        all.push(deep);
+        step = (step - less.abs()).max(least.abs());
+        if all.len() > MOST_UNEVEN {
+            return None;
+        }
+    }
+    Some(all)
+}
+
+/// The steps down, each of them a move.
+fn one_by_one(
+    parts: &mut Vec<Part>,
+    (from, to, absolute): (f64, f64, bool),
+    depths: &[f64],
+    (clear, out): (f64, bool),
+) {
+    let (down, mut at, mut before) = ((to - from).signum(), from, 0.0);
     let mut go = |at: &mut f64, feed: bool, to: f64| {
         let to = clean(to);
-        let word = if planes.is_some() { to } else { clean(to - *at) };
+        let word = if absolute { to } else { clean(to - *at) };
         if to != *at {
             parts.push(Part::Move(feed, Expr::Number(word)));
         }
         *at = to;
     };
-    while deep < whole {
-        if deep > 0.0 {
+    for deep in depths {
+        if before > 0.0 {
             if out {
                 go(&mut at, false, from);
             }
-            go(&mut at, false, from + down * (deep - clear).max(0.0));
+            go(&mut at, false, from + down * (before - clear).max(0.0));
         }
-        deep = if deep + step >= whole - 1e-9 { whole } else { deep + step };
         go(&mut at, true, from + down * deep);
+        before = *deep;
     }
-    Ok(())
 }

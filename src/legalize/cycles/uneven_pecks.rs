@@ -1,0 +1,60 @@
+//! Pecks that become less, as moves, where the target tells all pecks of a hole one depth.
+//!
+//! Law: the holes of a program with such pecks, and of those that it calls or that call it, become the moves that they are (see
+//! [`super::hole_moves`]): so no cycle begins on one control and goes on on the other. Side conditions: those of that pass, and all
+//! numbers of these cycles are known. Counter-example: `G83 I#1 J1. K2.`, which stays and is refused later.
+
+use super::even_pecks::{by_depth, even, pecks};
+use super::hole_moves;
+use crate::canon::Role;
+use crate::ir::{Callee, Module, Program};
+use crate::legalize::features::Features;
+use crate::legalize::{Context, calls_of};
+use std::collections::BTreeSet;
+
+/// True if such words stand in the library.
+pub fn concerns(features: &Features) -> bool {
+    features.role(Role::PeckFirst)
+}
+
+/// Writes them as moves.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let uneven = |program: &Program| {
+        let mut stmts =
+            program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+        stmts.any(|nc| {
+            let cycle = nc.ops().find(|op| pecks(*op)).filter(|op| by_depth(context.target, *op));
+            cycle.is_some() && nc.word(Role::PeckFirst).is_some() && even(nc).is_none()
+        })
+    };
+    let mut all: BTreeSet<usize> =
+        (0..module.programs.len()).filter(|index| uneven(&module.programs[*index])).collect();
+    if all.is_empty() {
+        return;
+    }
+    let callees: Vec<BTreeSet<usize>> =
+        module.programs.iter().map(|program| callees(module, program)).collect();
+    let mut grows = true;
+    while std::mem::take(&mut grows) {
+        for (index, callees) in callees.iter().enumerate() {
+            if all.contains(&index) || callees.iter().any(|callee| all.contains(callee)) {
+                let before = all.len();
+                all.insert(index);
+                all.extend(callees);
+                grows |= all.len() > before;
+            }
+        }
+    }
+    hole_moves::write(module, context, Some(&all));
+}
+
+/// The programs of the library that a program calls.
+fn callees(module: &Module, program: &Program) -> BTreeSet<usize> {
+    let place = |callee: &Callee| {
+        module
+            .programs
+            .iter()
+            .position(|p| matches!(callee, Callee::Program(name) if p.name.as_ref() == Some(name)))
+    };
+    program.blocks.iter().flat_map(calls_of).filter_map(|call| place(&call.callee)).collect()
+}
