@@ -56,7 +56,8 @@ pub struct Diagnostic {
     pub assumes: Option<Arc<Predicate>>,
     /// The code, letter and number, of which the source's machine profile may say what the builder made of it.
     pub asks: Option<Arc<Asks>>,
-    /// The setting that the source's machine profile would have to state, as its table names it.
+    /// The setting that the source's machine profile would have to state, as its table names it; after `=` the value that the
+    /// program shows.
     pub setting: Option<Arc<str>>,
     /// The same of the target's profile.
     pub setting_there: Option<Arc<str>>,

@@ -81,13 +81,14 @@ enum Met {
 fn met(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Met, String> {
     let named = CodeMeaning { code: code.into(), ..site.row(None) };
     let head = named.head().ok_or_else(|| format!("'{code}' is not a code"))?;
-    let standard = target.code(head.letter, head.number(), &[]).filter(|row| row.op != Op::Builder);
+    // What only machines of its kind have a profile may name as a builder's code.
+    let standard = target.code(head.letter, head.number(), &[]);
+    let standard = standard.filter(|row| !matches!(row.op, Op::Builder | Op::MachineSpecific));
     let Some(standard) = standard else {
         return Ok(Met::Target(builders(site, act, code)));
     };
     let switched = matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
-    let own = matches!(standard.op, Op::MachineSpecific | Op::ProbeOther);
-    if standard.op.is_flow() || !switched || own {
+    if standard.op.is_flow() || !switched || standard.op == Op::ProbeOther {
         let meaning = standard.op.meaning().trim().trim_end_matches('.');
         return Err(format!("{} cannot be {code} of the target, which is: {meaning}", site.code));
     }

@@ -1,7 +1,7 @@
 //! Settings of lathes that more than one module asks: the place of the second reference position of other lathes, and the letters of increments.
 
-use super::{Control, Units};
-use crate::canon::Act;
+use super::{Control, Question, Setting, Units};
+use crate::canon::{Act, Op, Role};
 
 /// The settings that give it along X and Z, in machine coordinates and the unit of the control.
 pub const SECOND_HOME: [&str; 2] = ["setting.second_home_x", "setting.second_home_z"];
@@ -13,13 +13,26 @@ pub const STEP_LETTERS: &str = "setting.step_letters";
 pub const HOLE_CLAMP: &str = "parameter.5110";
 
 impl Control {
-    /// What clamps the C axis in a drilling block, and what lets it go after the hole, as far as the profile names them.
+    /// The number of the code that clamps the C axis in a drilling block, and that of the code which lets it go after the hole.
+    pub fn hole_clamp_codes(&self) -> Option<[u32; 2]> {
+        let number = self.setting(HOLE_CLAMP)?.trim().parse::<u32>().ok()?;
+        Some([number, number.checked_add(1)?])
+    }
+
+    /// What these two do, as far as a profile says it: the source's may say it of the target's codes ([`Control::meeting`]).
     pub fn hole_clamp(&self) -> [Option<Act>; 2] {
-        let number = self.setting(HOLE_CLAMP).and_then(|text| text.trim().parse::<u32>().ok());
-        [0, 1].map(|more| {
-            let code = f64::from(number?.checked_add(more)?);
-            self.site_code('M', code).and_then(|site| self.act_of(site))
+        let Some(codes) = self.hole_clamp_codes() else { return [None; 2] };
+        codes.map(|code| {
+            let row = self.code('M', f64::from(code), &[]).filter(|row| row.op == Op::Act)?;
+            row.fixed.get(&Role::Act).and_then(|act| Act::of(*act))
         })
+    }
+
+    /// The setting that says by which letters corners and angles of lines are written, and whether a comma may stand there.
+    pub fn corner_setting(&self) -> Option<&Setting> {
+        let key = Question::CornerLetters.fact();
+        let mut rows = self.dialect().settings.iter();
+        rows.find(|row| row.sets.values().any(|sets| sets.contains_key(key)))
     }
 
     /// The place along X and Z as far as the profile gives it: millimetres of machine coordinates, X a diameter.

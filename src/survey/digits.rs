@@ -30,6 +30,7 @@ pub(super) fn asked(places: &Places<'_>, controls: [&Control; 2], module: &Modul
             side,
             section,
             name: name.to_owned(),
+            likely: None,
             values: row.values.clone(),
             default: None,
             meaning: row.meaning.clone(),

@@ -24,6 +24,9 @@ pub struct AskedSetting {
     /// What the machine has if nobody changed it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub default: Option<String>,
+    /// What it is if the programs are right, where the machine may have any value: never written as an answer.
+    #[serde(skip)]
+    pub likely: Option<String>,
     /// What it is.
     pub meaning: String,
     /// How many programs wait for it.
@@ -33,9 +36,9 @@ pub struct AskedSetting {
 }
 
 impl AskedSetting {
-    /// An answer that a machine might give: what it has if nobody changed it, or the first value.
+    /// An answer that a machine might give: what programs show, what it has if nobody changed it, or the first value.
     pub fn usual(&self) -> String {
-        let first = self.default.as_ref().or_else(|| self.values.first());
+        let first = self.likely.as_ref().or(self.default.as_ref()).or_else(|| self.values.first());
         first.cloned().unwrap_or_else(|| "1".into())
     }
 }
@@ -46,6 +49,7 @@ struct Found {
     programs: BTreeSet<usize>,
     /// The values that it must have, as their bits.
     needed: BTreeSet<u64>,
+    likely: Option<String>,
     places: Vec<String>,
 }
 
@@ -62,6 +66,8 @@ pub(super) fn asked(
             let found = found.entry((side, name)).or_default();
             found.programs.insert(at);
             found.needed.extend(value.map(f64::to_bits));
+            let shown = finding.setting.as_deref().and_then(|name| Some(name.split_once('=')?.1.to_owned()));
+            found.likely = found.likely.take().or(shown);
             let place = places.at(program.file, finding.span);
             if found.places.len() < NAMED && !found.places.contains(&place) {
                 found.places.push(place);
@@ -86,6 +92,7 @@ pub(super) fn asked(
             section,
             name: short.to_owned(),
             values: if needed.is_empty() { values(row, short) } else { needed },
+            likely: found.likely,
             default: row
                 .and_then(|row| row.default.clone())
                 .filter(|_| side == Side::Source && short != CODE_SYSTEM),
@@ -109,7 +116,7 @@ fn values(row: Option<&Setting>, name: &str) -> Vec<String> {
 /// The setting that a finding waits for: of which machine, and the value that it must have, if it must have one.
 fn named(finding: &Diagnostic) -> Option<(Side, Arc<str>, Option<f64>)> {
     if let Some(name) = &finding.setting {
-        return Some((Side::Source, name.clone(), None));
+        return Some((Side::Source, name.split('=').next()?.into(), None));
     }
     if let Some(name) = &finding.setting_there {
         return Some((Side::Target, name.clone(), None));

@@ -173,7 +173,11 @@ impl Survey<'_> {
         let Some(best) = best else { return false };
         self.answered = Some(Outcomes::of(&best.programs));
         self.stays = reasons(&best.programs);
-        let known = (self.settings.len(), self.words.len(), self.asked_later());
+        let known = (self.codes.len(), self.settings.len(), self.words.len(), self.asked_later());
+        let codes = codes::asked(self.inputs, places, self.controls[0], &best.programs).into_iter();
+        let codes: Vec<AskedCode> =
+            codes.filter(|new| !self.codes.iter().any(|old| old.code == new.code)).collect();
+        self.codes.extend(codes);
         let asked = keys::asked(places, self.controls, &best.programs);
         let is_known =
             |new: &AskedSetting| self.settings.iter().any(|old| old.side == new.side && old.name == new.name);
@@ -183,7 +187,7 @@ impl Survey<'_> {
         let words: Vec<AskedWord> = words.filter(|new| !self.words.iter().any(|old| old.is(new))).collect();
         self.words.extend(words);
         self.then.push(best);
-        known != (self.settings.len(), self.words.len(), self.asked_later())
+        known != (self.codes.len(), self.settings.len(), self.words.len(), self.asked_later())
     }
 
     /// How many facts are asked of the machines once others are known.

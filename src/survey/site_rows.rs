@@ -33,7 +33,9 @@ fn row(text: &mut String, code: &AskedCode, goes: bool) {
     let said = code.comment.as_ref().map_or(String::new(), |(comment, _)| comment.clone());
     let said: String =
         said.chars().filter(|letter| !letter.is_control() && !"\"\\".contains(*letter)).collect();
-    let _ = writeln!(text, "{ASKS} text = \"{said}\" # as in: {}", plain(&code.block));
+    // What lets an axis go after a hole stands in no block: the control gives it by itself.
+    let how = if code.block.contains(&code.code) { "as in" } else { "goes with" };
+    let _ = writeln!(text, "{ASKS} text = \"{said}\" # {how}: {}", plain(&code.block));
     let _ = match (code.op, goes) {
         (Some(op), _) => writeln!(
             text,

@@ -238,6 +238,36 @@ fn settings_that_cycles_wait_for_are_lines_of_the_profile() {
     assert_eq!(json(&shop, &format!("{line} --format json"))["now"]["refused"], 0);
 }
 
+/// What clamps the C axis for a hole, and what lets it go after it, is answered in the source's profile alone: no other question is left.
+#[test]
+fn what_clamps_an_axis_for_a_hole_is_asked_with_what_lets_it_go() {
+    let text = "%\nO7\nG21 G98 G18 G54\nT0101\nG97 S900 M3\nG0 X30. Z5. C0.\nG83 Z-20. R-2. F100. M89\nC90. M89\nG80\nM30\n%\n";
+    let source = "dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"\ndecimal_point = \"calculator\"\naxes = [\"X\",\"Z\",\"C\"]\n[settings]\ngcode_system = \"A\"\n";
+    let target = "dialect = \"haas\"\nmachine = \"lathe\"\nunits = \"metric\"\naxes = [\"X\",\"Z\",\"C\"]\n";
+    let shop = Shop::with(&[("lib/a.nc", text), ("a.toml", source), ("h.toml", target)]);
+    let machines = "--from fanuc --to haas --machine a.toml --machine h.toml";
+    let survey = json(&shop, &format!("survey lib {machines} --write a.toml --format json"));
+    assert_eq!(
+        (&survey["now"]["refused"], &survey["answered"]["refused"]),
+        (&1.into(), &0.into()),
+        "{survey}"
+    );
+    let asked = shop.read("a.toml");
+    assert!(asked.contains("\n#? code = \"M89\"\n#? text = \"\" # as in: "), "{asked}");
+    assert!(asked.contains("\n#? code = \"M90\"\n#? text = \"\" # goes with: "), "{asked}");
+    let site = |code: &str, target: &str| {
+        format!("[[site]]\ncode = \"{code}\"\ntext = \"clamp\"\ntarget = \"{target}\"\n")
+    };
+    let answered =
+        format!("{source}[parameters]\n5110 = \"89\"\n{}{}", site("M89", "M14"), site("M90", "M15"));
+    shop.write("a.toml", answered.as_bytes());
+    let run = shop.run(&format!("convert lib {machines} --out out"));
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    let made = shop.read("out/a.nc");
+    let at = |code: &str| made.find(&format!("\n{code}\n")).unwrap_or_else(|| panic!("{code}: {made}"));
+    assert!(at("M14") < at("M15"), "{made}");
+}
+
 /// What a number without a decimal point counts is a key of its own, not something to confirm.
 #[test]
 fn the_decimal_point_is_a_line_of_the_profile() {

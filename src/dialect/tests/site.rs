@@ -97,6 +97,15 @@ fn the_source_names_codes_of_the_target() {
     assert_eq!(own, Ok((Some(Op::Act), Some("M151".into()))));
     let standard = meeting("{code='M14',text='a',target='M8'}");
     assert_eq!(standard, Ok((Some(Op::Flood), None)));
+    // What only such a machine has is as good as a builder's.
+    let brake = Control::meeting(
+        control("fanuc", "{code='M89',text='a',target='M14'}"),
+        Control::from_profile("dialect = \"haas\"\nmachine = \"lathe\"").unwrap(),
+    );
+    assert!(brake.is_ok_and(|(source, target)| {
+        let act = source.site_code('M', 89.0).and_then(|site| source.act_of(site));
+        act.and_then(|act| target.code_of(act)).is_some_and(|row| row.code == "M14")
+    }));
     let flow = meeting("{code='M14',text='a',target='M30'}").unwrap_err();
     assert!(flow.contains("M14 cannot be M30 of the target"), "{flow}");
     let word = meeting("{code='M14',text='a',target='M8',words={P='Q'}}").unwrap_err();

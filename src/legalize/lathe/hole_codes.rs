@@ -8,8 +8,8 @@
 use super::holes;
 use crate::canon::{Act, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{HOLE_CLAMP, Question};
-use crate::ir::{Expr, Module, NcItem};
+use crate::dialect::{Control, HOLE_CLAMP, Question};
+use crate::ir::{Expr, Module, Nc, NcItem};
 use crate::legalize::Context;
 
 /// Refuses them, unless both machines have one control.
@@ -25,12 +25,22 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let names = nc.items.iter().any(|item| matches!(item, NcItem::Code('M', _) | NcItem::Op(Op::Act)));
         let open = [context.source, context.target].iter().all(|control| control.leaves_open(HOLE_CLAMP));
         if !alike {
-            let found = Diagnostic::new(Code::NoEquivalent, span, WHAT);
+            let found = Diagnostic::new(Code::NoEquivalent, span, WHAT).with_help(HELP);
+            let number = number(nc, context.source);
             context.add(
                 index,
-                match context.source.leaves_open(HOLE_CLAMP) && names {
-                    true => found.with_help(format!("{HELP}{CLAMP}")).lacking(HOLE_CLAMP),
-                    false => found.with_help(HELP),
+                match (context.source.leaves_open(HOLE_CLAMP) && names, context.source.hole_clamp_codes()) {
+                    (true, _) => found.with_help(format!("{HELP}{CLAMP}")).lacking(match number {
+                        Some(number) => format!("{HOLE_CLAMP}={number}"),
+                        None => HOLE_CLAMP.into(),
+                    }),
+                    // The profile says that it clamps the axis, and not what lets it go.
+                    (false, Some([clamps, frees])) if number == Some(clamps) && ours[1].is_none() => {
+                        Diagnostic::new(Code::NoEquivalent, span, frees_what(clamps, frees))
+                            .with_help(frees_help(frees))
+                            .asking('M', f64::from(frees))
+                    }
+                    _ => found,
                 },
             );
         } else if is_clamp(ours) || is_clamp(theirs) {
@@ -61,8 +71,31 @@ const UNTOLD_HELP: &str = "if it does, give its number as \"5110\" under [parame
 const ONE_CLAMPS: &str = "this code clamps the C axis for the hole of its block on one of the two machines alone: parameter 5110 is given in one profile, or \
                           the codes of the two have other names";
 const ONE_CLAMPS_HELP: &str = "give 5110 under [parameters] of both profiles, and that code and the next one the same names under [[site]] in both";
-const CLAMP: &str = "; or, if it clamps the C axis for the hole, give its number under [parameters] of the source's profile, as \"5110\" = 31, and name it \
-                     and the code of the next number, which lets the axis go, under [[site]] in both profiles";
+const CLAMP: &str = "; or, if it clamps the C axis for the hole, give its number under [parameters] of the source's profile, as \"5110\" = 31, and say \
+                     there under [[site]] what it and the code of the next number, which lets the axis go, are on the target: target = \"M14\"";
+
+fn frees_what(clamps: u32, frees: u32) -> String {
+    format!(
+        "M{clamps} clamps the C axis for the hole of its block, and M{frees} lets it go after the hole (parameter 5110): the profile does not say what \
+         M{frees} is on the target"
+    )
+}
+
+fn frees_help(frees: u32) -> String {
+    format!("say it under [[site]] of the source's profile: code = \"M{frees}\" with target, do or name")
+}
+
+/// The number of the M code of a block, if it has one that is not the control's own.
+fn number(nc: &Nc, source: &Control) -> Option<u32> {
+    nc.items.iter().find_map(|item| match item {
+        NcItem::Code('M', number) => number.constant().map(|number| number as u32),
+        NcItem::Word(Role::Act, number) => {
+            let act = Act::of(number.constant()?)?;
+            source.code_of(act)?.code.strip_prefix('M')?.parse().ok()
+        }
+        _ => None,
+    })
+}
 
 fn acts(item: &NcItem) -> bool {
     match item {
