@@ -49,7 +49,12 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             continue;
         }
         let meaning = op.meaning().trim().trim_end_matches('.');
-        let what = format!("{} has no code for this ({op}): {meaning}", target.title);
+        let what = match op {
+            Op::Cylinder => {
+                format!("{} has no code for this that a source describes ({op}): {meaning}", target.title)
+            }
+            _ => format!("{} has no code for this ({op}): {meaning}", target.title),
+        };
         let finding = Diagnostic::new(Code::NoEquivalent, span, what);
         let stand_in = stand_in(op, context.source);
         let lathe = context.target.machine() == Machine::Lathe;
@@ -92,6 +97,10 @@ fn set_zero(source: &Control) -> String {
 const LEADS: &str = "cut this thread on a machine that has the code. Threads of one lead each, block after block, only come near it: if that is \
                      good enough for the part, write them into the source yourself";
 
+const SIDE: &str = "let the CAM system write this part for the target, or write straight lines as G1 with Z and C in degrees and arcs as many short \
+                    lines: along a straight line round the side Z and C go evenly, so the path is the same. F is not the speed along the side there: try \
+                    it with the tool in the air";
+
 /// What a person can do: a shop says what a code of its machine does. None for what is more than a code.
 fn help(op: Op) -> Option<String> {
     let words = match op {
@@ -99,6 +108,7 @@ fn help(op: Op) -> Option<String> {
         Op::OptionalStop => "",
         op if op.auxiliary().is_some() => "",
         Op::ThreadVariable => return Some(LEADS.into()),
+        Op::Cylinder => return Some(SIDE.into()),
         _ => return None,
     };
     Some(format!(

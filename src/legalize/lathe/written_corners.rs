@@ -102,7 +102,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     }
                 }
                 // A parameter may say that a comma is an alarm.
-                Said::Comma(span) if context.target.behaviour(Question::CornerLetters).is_some() => {
+                Said::Comma(span) if context.target.corner_setting().is_some() => {
                     context.rests_on_target(index, span, Question::CornerLetters);
                 }
                 Said::Comma(_) => {}

@@ -5,4 +5,5 @@ mod bare;
 mod nc;
 mod roles;
 mod turning;
+mod unknown;
 mod value;

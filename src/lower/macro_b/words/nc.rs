@@ -188,29 +188,6 @@ impl<'a> Lowering<'a> {
         known.then_some(codes)
     }
 
-    fn unknown_code(&mut self, id: CodeId, span: Span) {
-        let Some(code) = self.codes.get(id) else { return };
-        let (letter, number) = (code.head.letter, code.head.number());
-        let name = format!("{letter}{number}");
-        let of_builder = code.alias.is_none() && !code.depends;
-        let message = if code.alias.is_some() {
-            format!(
-                "{name} calls a program elsewhere; in a program that a code calls it is a plain code, and \
-                 the table has no such code"
-            )
-        } else if code.depends {
-            format!("{name} has no meaning beside the words of this block")
-        } else {
-            format!("the table of this control has no code {name}")
-        };
-        let help = format!(
-            "say in the machine profile what the builder made of it: [[site]] with code = \"{name}\", a text, and name, \
-             target or do; or calls, if it calls a program"
-        );
-        let finding = Diagnostic::new(Code::NotUnderstood, span, message).with_help(help);
-        self.findings.add(if of_builder { finding.asking(letter, number) } else { finding });
-    }
-
     fn operation(
         &mut self,
         id: CodeId,

@@ -114,7 +114,15 @@ impl<'a> Lowering<'a> {
             Some(row) if matches!(row.op, ArcCw | ArcCcw | ArcTangent) || special(row.op) => true,
             Some(row) if own || !self.motion.joined => {
                 let message = format!("{} has no meaning under {}", word.letter, row.code);
-                self.findings.not_understood(span, message);
+                let told = Diagnostic::new(Code::NotUnderstood, span, message);
+                let corner = row.op == Linear
+                    && word.letter == 'R'
+                    && self.codes.letter('R', true).is_some()
+                    && self.control.machine() == Machine::Lathe;
+                self.findings.add(match corner {
+                    true => told.with_help("if it rounds the corner to the next line, write ,R with a comma"),
+                    false => told,
+                });
                 false
             }
             _ => {

@@ -233,9 +233,7 @@ impl Lowering<'_> {
     /// The setting that says by which letters corners and angles are written, where the control is not set to plain ones.
     fn corner_letters(&self) -> Option<String> {
         let plain = self.control.behaviour(Question::CornerLetters).is_some_and(|row| row.value == "letters");
-        let key = Question::CornerLetters.fact();
-        let mut rows = self.control.dialect().settings.iter();
-        let row = rows.find(|row| row.sets.values().any(|sets| sets.contains_key(key)))?;
+        let row = self.control.corner_setting()?;
         (!plain).then(|| row.name.clone())
     }
 

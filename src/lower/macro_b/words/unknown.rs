@@ -1,0 +1,58 @@
+//! Codes that the table of the control does not have.
+
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{CodeHead, Machine};
+use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::codes::CodeId;
+use crate::text::Span;
+use std::collections::BTreeSet;
+
+impl Lowering<'_> {
+    /// Refuses a code that the table does not have, or not beside the words of its block.
+    pub fn unknown_code(&mut self, id: CodeId, span: Span) {
+        let Some(code) = self.codes.get(id) else { return };
+        let (letter, number) = (code.head.letter, code.head.number());
+        let name = format!("{letter}{number}");
+        let of_builder = code.alias.is_none();
+        if code.depends {
+            return self.findings.add(self.other_words(&name, code.head, span));
+        }
+        let message = if code.alias.is_some() {
+            format!(
+                "{name} calls a program elsewhere; in a program that a code calls it is a plain code, and \
+                 the table has no such code"
+            )
+        } else {
+            format!("the table of this control has no code {name}")
+        };
+        let help = format!(
+            "say in the machine profile what the builder made of it: [[site]] with code = \"{name}\", a text, and name, \
+             target or do; or calls, if it calls a program"
+        );
+        let finding = Diagnostic::new(Code::NotUnderstood, span, message).with_help(help);
+        self.findings.add(if of_builder { finding.asking(letter, number) } else { finding });
+    }
+
+    /// A code that the table knows beside other words alone.
+    fn other_words(&self, name: &str, head: CodeHead, span: Span) -> Diagnostic {
+        let rows = || self.control.dialect().codes.iter().filter(|row| row.head() == Some(head));
+        let all: BTreeSet<&str> = rows().map(|row| row.code.as_str()).collect();
+        let all = all.into_iter().collect::<Vec<_>>().join(", ");
+        let message = format!(
+            "what {name} does beside the words of this block no source says: the table of this control has it as {all} alone"
+        );
+        // A limit of the speed, which sets a zero beside the letters of axes on many lathes.
+        let limits = rows().any(|row| row.op == Op::LimitSpeed);
+        let help = match limits && self.control.machine() == Machine::Lathe {
+            true => format!(
+                "if it sets a zero from where the tool stands, set that zero by a work offset (G54 to G59, G10 L2) and the tool offsets, and \
+                 take {name} out of the block; a limit of the speed (S) stays"
+            ),
+            false => format!(
+                "say in the machine profile what the builder made of it: [[site]] with code = \"{name}\", a text, and name, target or do"
+            ),
+        };
+        Diagnostic::new(Code::NotUnderstood, span, message).with_help(help)
+    }
+}
