@@ -227,7 +227,10 @@ impl Pen<'_> {
         };
         self.set(depth, product(first.clone(), times));
         if let Some(least) = least {
-            self.set_if(compare(Relation::Less, depth, Expr::Var(least)), depth, Expr::Var(least));
+            // The greater of the two, without a branch that some runs never take.
+            let apart = Expr::Call(Func::Abs, [difference(Expr::Var(depth), Expr::Var(least))].into());
+            let twice = sum(sum(Expr::Var(depth), Expr::Var(least)), apart);
+            self.set(depth, quotient(twice, Expr::Number(2.0)));
         }
         self.builder.end(TermKind::Jump(head), self.site());
         self.builder.start(done);

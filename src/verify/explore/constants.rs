@@ -2,8 +2,8 @@
 //!
 //! `#100=6000` and in the next block `IF[#100GT2500]`: no circumstances go the other way, so nothing is missed where none
 //! did. What a jump that was not taken says counts too: after `IF[#1LT2]GOTO9` the variable is 2 or more, and its whole
-//! part no more than itself. Jumps are followed: a place that they lead to knows what holds on each way there; one that a
-//! later jump leads back to, or that a call or a return may mean, knows nothing. After a code that may call something no
+//! part no more than itself. Jumps are followed: a place that they lead to knows what holds on each way there, round a loop too;
+//! one that a call or a return may mean knows nothing. After a code that may call something no
 //! more is known than of the locals of a program whose callee has its own. The literals at the head of a source are edited,
 //! and then other ways are gone: what they are counts only where they stand in one row with the condition; further off it
 //! counts that they are numbers.
@@ -15,7 +15,7 @@ mod known;
 use crate::canon::{Func, Sys};
 use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
-use crate::syntax::{BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Target, TestSubject, VarRef};
+use crate::syntax::{BinaryOp, Block, Expr, ExprKind, Index, Item, ItemKind, Target, TestSubject, VarRef};
 use crate::text::Span;
 use crate::verify::sides::{Side, class_of, name_of};
 use jumps::{Jumps, State, goes, is_plain, join, keeps_locals};
@@ -52,35 +52,31 @@ fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i
     // Under a modal call, its own or its callers', each move of the program may be one.
     let may_be = links.is_called(program) || !text.iter().all(|block| is_plain(&block.items, control));
     let modal = may_be && links.has_modal_calls();
-    let jumps = Jumps::of(text, control, links.returns_to_blocks());
-    let (known, out) = (State::new(), BTreeSet::new());
-    let mut reader = Reader { control, looks, modal, jumps, known, is_reached: true, out };
-    for block in text {
-        if looks.follows {
-            let before = reader.is_reached.then(|| std::mem::take(&mut reader.known));
-            let state = reader.jumps.enter(block, before);
-            reader.is_reached = state.is_some();
-            reader.known = state.unwrap_or_default();
+    let mut jumps = Jumps::of(text, control, links.returns_to_blocks());
+    let begin = |jumps| Reader {
+        control,
+        looks,
+        modal,
+        jumps,
+        known: State::new(),
+        is_reached: true,
+        out: BTreeSet::new(),
+    };
+    for _ in 0..ROUNDS {
+        let mut reader = begin(jumps);
+        reader.blocks(text);
+        if reader.jumps.is_settled() {
+            return reader.out;
         }
-        // A block that can be skipped may not have run: only what it leaves alone is still known.
-        let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
-        let before = (skipped && reader.is_reached).then(|| reader.known.clone());
-        if looks.follows {
-            reader.words(&block.items);
-            block.items.iter().for_each(|item| reader.item(item));
-        } else {
-            block.items.iter().for_each(|item| reader.in_row(item));
-        }
-        if let Some(before) = before {
-            if reader.is_reached {
-                reader.known.retain(|name, value| before.get(name) == Some(value));
-            } else {
-                (reader.known, reader.is_reached) = (before, true);
-            }
-        }
+        jumps = reader.jumps.again();
     }
+    let mut reader = begin(jumps.without_loops());
+    reader.blocks(text);
     reader.out
 }
+
+/// How often a text is read for what holds round its loops.
+const ROUNDS: usize = 8;
 
 struct Reader<'c> {
     control: &'c Control,
@@ -95,6 +91,34 @@ struct Reader<'c> {
 }
 
 impl Reader<'_> {
+    /// Reads a program once.
+    fn blocks(&mut self, text: &[Block]) {
+        for block in text {
+            if self.looks.follows {
+                let before = self.is_reached.then(|| std::mem::take(&mut self.known));
+                let state = self.jumps.enter(block, before);
+                self.is_reached = state.is_some();
+                self.known = state.unwrap_or_default();
+            }
+            // A block that can be skipped may not have run: only what it leaves alone is still known.
+            let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+            let before = (skipped && self.is_reached).then(|| self.known.clone());
+            if self.looks.follows {
+                self.words(&block.items);
+                block.items.iter().for_each(|item| self.item(item));
+            } else {
+                block.items.iter().for_each(|item| self.in_row(item));
+            }
+            if let Some(before) = before {
+                if self.is_reached {
+                    self.known.retain(|name, value| before.get(name) == Some(value));
+                } else {
+                    (self.known, self.is_reached) = (before, true);
+                }
+            }
+        }
+    }
+
     /// An item of what stands in one row: anything but an assignment or a condition ends it.
     fn in_row(&mut self, item: &Item) {
         use ItemKind::*;
@@ -298,9 +322,9 @@ impl Reader<'_> {
             ExprKind::Group(inner) | ExprKind::Plus(inner) => self.value(inner),
             ExprKind::Negate(inner) => Some(Known::Number(number(inner).negated())),
             ExprKind::Variable(variable) => self.value_of(variable),
-            ExprKind::Binary(BinaryOp::Multiply | BinaryOp::Divide, operands) => {
-                let [a, b] = &**operands;
-                Some(Known::Number(number(a).times(&number(b))))
+            ExprKind::Binary(op @ (BinaryOp::Multiply | BinaryOp::Divide), operands) => {
+                let [a, b] = [&operands[0], &operands[1]].map(number);
+                Some(Known::Number(if *op == BinaryOp::Divide { a.by(&b) } else { a.times(&b) }))
             }
             ExprKind::Binary(BinaryOp::Add, operands) => {
                 let [a, b] = &**operands;
@@ -317,6 +341,11 @@ impl Reader<'_> {
                     _ => None,
                 };
                 Some(Known::Number(number(of).whole(variable)))
+            }
+            ExprKind::Call { function: function @ (Func::Round | Func::Abs), arguments, .. } => {
+                let [of] = arguments.as_slice() else { return any };
+                let of = number(of);
+                Some(Known::Number(if *function == Func::Abs { of.absolute() } else { of.to_whole() }))
             }
             // Arithmetic and functions never yield vacancy.
             _ => any,

@@ -27,6 +27,12 @@ pub(super) struct Jumps {
     anywhere: bool,
     /// The jumps that were come by, and what is known at those of them that can be taken.
     seen: BTreeMap<Key, (usize, Option<State>)>,
+    /// The places that later jumps lead back to.
+    loops: BTreeSet<Key>,
+    /// What is supposed to be known at the jumps that lead there.
+    supposed: BTreeMap<Key, State>,
+    /// True if nothing is supposed, and nothing known at such places.
+    forgets: bool,
 }
 
 impl Jumps {
@@ -67,7 +73,7 @@ impl Jumps {
 
     /// What is known where a block begins: `state` if the one before it goes on to it. None in both is a block that nothing
     /// comes to.
-    pub(super) fn enter(&self, block: &Block, mut state: Option<State>) -> Option<State> {
+    pub(super) fn enter(&mut self, block: &Block, mut state: Option<State>) -> Option<State> {
         for item in &block.items {
             let key = match &item.kind {
                 ItemKind::Sequence { number, .. } => Key::Sequence(*number),
@@ -82,12 +88,53 @@ impl Jumps {
             };
             let (come_by, joined) = self.seen.get(&key).cloned().unwrap_or_default();
             state = match self.to.get(&key).copied().unwrap_or_default() {
-                // Loops, and what is not known.
-                total if anyone || come_by < total => Some(State::new()),
+                _ if anyone => Some(State::new()),
+                total if come_by < total && self.forgets => Some(State::new()),
+                total if come_by < total => {
+                    let supposed = self.supposed.get(&key).cloned();
+                    self.loops.insert(key);
+                    join(join(state, joined), supposed)
+                }
                 _ => join(state, joined),
             };
         }
         state
+    }
+
+    /// True where the jumps that lead back bring no more than was supposed of them.
+    pub(super) fn is_settled(&self) -> bool {
+        self.loops.iter().all(|key| match (self.supposed.get(key), self.brought(key)) {
+            (Some(supposed), Some(brought)) => covers(supposed, brought),
+            (_, brought) => brought.is_none(),
+        })
+    }
+
+    fn brought(&self, key: &Key) -> Option<&State> {
+        self.seen.get(key)?.1.as_ref()
+    }
+
+    /// The same for another reading, which supposes what the jumps brought.
+    pub(super) fn again(mut self) -> Self {
+        for key in std::mem::take(&mut self.loops) {
+            let old = self.supposed.remove(&key);
+            let supposed = match (old, self.brought(&key)) {
+                (Some(old), Some(new)) => Some(widened(old, new)),
+                (old, new) => old.or_else(|| new.cloned()),
+            };
+            self.supposed.extend(supposed.map(|supposed| (key, supposed)));
+        }
+        Self { seen: BTreeMap::new(), ..self }
+    }
+
+    /// The same for a reading that knows nothing where a later jump leads back to.
+    pub(super) fn without_loops(self) -> Self {
+        Self {
+            seen: BTreeMap::new(),
+            loops: BTreeSet::new(),
+            supposed: BTreeMap::new(),
+            forgets: true,
+            ..self
+        }
     }
 
     /// Comes by a jump; `state` is what is known if it can be taken.
@@ -125,6 +172,27 @@ pub(super) fn join(one: Option<State>, other: Option<State>) -> Option<State> {
         Some((name, joined))
     });
     Some(both.collect())
+}
+
+/// True where all that is supposed of variables holds of what is known.
+fn covers(supposed: &State, known: &State) -> bool {
+    supposed.iter().all(|(name, supposed)| match (supposed, known.get(name)) {
+        (Known::Number(supposed), Some(Known::Number(known))) => supposed.widened(known) == *supposed,
+        (supposed, known) => known == Some(supposed),
+    })
+}
+
+/// What was supposed of variables and still holds: what changes from one reading to the next may change for ever.
+fn widened(old: State, new: &State) -> State {
+    let both = old.into_iter().filter_map(|(name, known)| {
+        let still = match (known, new.get(&name)?) {
+            (known, same) if known == *same => known,
+            (Known::Number(old), Known::Number(new)) => Known::Number(old.widened(new)),
+            _ => return None,
+        };
+        Some((name, still))
+    });
+    both.collect()
 }
 
 /// The number of a word; none if it is computed, or has none.

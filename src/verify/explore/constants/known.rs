@@ -31,26 +31,80 @@ impl Range {
         Self { low: value, high: value, whole_of: None }
     }
 
-    /// The sum with another. Only whole bounds are kept: those no control rounds.
+    /// The sum with another. Between whole numbers no control rounds.
     pub fn plus(&self, other: &Self) -> Self {
         let whole = |bound: f64| bound.is_infinite() || (bound.fract() == 0.0 && bound.abs() < 1e6);
         let (low, high) = (self.low + other.low, self.high + other.high);
         let all = [self.low, self.high, other.low, other.high, low, high];
-        if all.into_iter().all(whole) { Self { low, high, whole_of: None } } else { Self::ANY }
+        if all.into_iter().all(whole) { Self { low, high, whole_of: None } } else { Self::rounded(low, high) }
     }
 
-    /// The product or the quotient with another: its sign is all that is kept, since a control may round.
+    /// The product with another.
     pub fn times(&self, other: &Self) -> Self {
+        self.of_pairs(other, |a, b| a * b)
+    }
+
+    /// The quotient by another.
+    pub fn by(&self, other: &Self) -> Self {
+        self.of_pairs(other, |a, b| a / b)
+    }
+
+    /// What a product or a quotient can be: between those of the ends, and never of the other sign.
+    fn of_pairs(&self, other: &Self, result: impl Fn(f64, f64) -> f64) -> Self {
         let sign = |range: &Self| match range {
             range if range.low >= 0.0 => Some(1.0),
             range if range.high <= 0.0 => Some(-1.0),
             _ => None,
         };
-        match (sign(self), sign(other)) {
+        let by_sign = match (sign(self), sign(other)) {
             (Some(a), Some(b)) if a == b => Self { low: 0.0, ..Self::ANY },
             (Some(_), Some(_)) => Self { high: 0.0, ..Self::ANY },
             _ => Self::ANY,
+        };
+        let ends = [self.low, self.high].into_iter().flat_map(|a| [(a, other.low), (a, other.high)]);
+        let ends: Vec<f64> = ends.map(|(a, b)| result(a, b)).collect();
+        // Across 0 a quotient has no bounds.
+        if sign(other).is_none()
+            || other.low == 0.0
+            || other.high == 0.0
+            || !ends.iter().all(|end| end.is_finite())
+        {
+            return by_sign;
         }
+        let low = ends.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let Self { low, high, .. } = Self::rounded(low, high);
+        Self { low: low.max(by_sign.low), high: high.min(by_sign.high), whole_of: None }
+    }
+
+    /// The range of what a control computes where the true values lie in this one: none rounds coarser than two thousandths, or
+    /// six digits.
+    fn rounded(low: f64, high: f64) -> Self {
+        if low.is_nan() || high.is_nan() {
+            return Self::ANY;
+        }
+        let by = |bound: f64| if bound.is_finite() { 0.002 + bound.abs() * 1e-6 } else { 0.0 };
+        Self { low: low - by(low), high: high + by(high), whole_of: None }
+    }
+
+    /// What is rounded to a whole number, whichever way halves go.
+    pub fn to_whole(&self) -> Self {
+        Self { low: self.low.floor(), high: self.high.ceil(), whole_of: None }
+    }
+
+    /// Its values without their signs.
+    pub fn absolute(&self) -> Self {
+        let (low, high) = (self.low.abs(), self.high.abs());
+        let least = if self.low <= 0.0 && self.high >= 0.0 { 0.0 } else { low.min(high) };
+        Self { low: least, high: low.max(high), whole_of: None }
+    }
+
+    /// What lies in it or in a later one, whose bounds may go on growing: a bound that grew is none.
+    pub fn widened(&self, later: &Self) -> Self {
+        let low = if later.low < self.low { f64::NEG_INFINITY } else { self.low };
+        let high = if later.high > self.high { f64::INFINITY } else { self.high };
+        let whole_of = self.whole_of.clone().filter(|of| later.whole_of.as_ref() == Some(of));
+        Self { low, high, whole_of }
     }
 
     /// The same with its sign turned.

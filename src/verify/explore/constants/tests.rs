@@ -36,6 +36,14 @@ fn what_jumps_come_by_with_is_known() {
         "IF[#101GT5]GOTO7\n#100=3\nN7",
         "#100=#100*#100",
         "IF[#101GT5]THEN#100=1",
+        // Round a loop, and round one in another.
+        "N3\n#102=#102+1\nIF[#102LT#101]GOTO3",
+        "N3\n#100=#100+1\nIF[#101GT5]GOTO3",
+        "N2\n#102=0\nN3\n#102=#102+1\nIF[#102LT#101]GOTO3\n#103=#103+1\nIF[#103LT#101]GOTO2",
+        "GOTO4\nN3\n#102=#102+1\nN4\nIF[#102LT#101]GOTO3",
+        // No control rounds so far off.
+        "#100=ROUND[#100*3.7]/7-0.5",
+        "#100=ABS[0-#100]-5999",
     ] {
         assert!(is_shown(between), "{between}");
     }
@@ -45,6 +53,10 @@ fn what_jumps_come_by_with_is_known() {
 fn what_may_come_by_otherwise_is_not() {
     for between in [
         "N3\n#100=#100-1\nIF[#101GT5]GOTO3",
+        "N2\n#102=0\nN3\n#102=#102+1\nIF[#102LT#101]GOTO3\n#100=#100-#102\nIF[#103LT#101]GOTO2",
+        "IF[#101GT5]GOTO4\nN3\n#100=-1\nN4\nIF[#102LT#101]GOTO3",
+        "#100=#100/7-857.142",
+        "#100=#100/[#101*#101-1]",
         "GOTO#103\nN6#100=-1\nN7",
         "G65P2",
         "G65P2\nN3",
