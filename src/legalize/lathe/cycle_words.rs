@@ -15,7 +15,7 @@ use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
 use super::setting_values::{Found, Instead, So, tell};
 use super::settings::{Kind, block_before, setting, share, stands_in, takes};
 use super::straight::entered_straight;
-use super::thread_loops::{self, Loop};
+use super::thread_loops::{self, Made};
 use super::thread_passes::says_how;
 use super::threads::{beyond, flanks_are_open};
 use crate::canon::{Group, Op, Role};
@@ -81,8 +81,8 @@ fn each(
     context: &mut Context<'_>,
 ) -> Found {
     let straight = entered_straight(program);
-    let threads = context.features.op(Op::Threading);
-    let vacant = if threads { vacant(program, summaries) } else { Vec::new() };
+    let loops = [Op::Threading, Op::Groove, Op::FaceGroove].iter().any(|op| context.features.op(*op));
+    let vacant = if loops { vacant(program, summaries) } else { Vec::new() };
     let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
     let mut run = Run {
         source: context.source,
@@ -97,6 +97,7 @@ fn each(
         place: Place::default(),
         starts: Starts::default(),
         vacant: false,
+        set_vacant: false,
         found: Vec::new(),
         loops: Vec::new(),
         flanks: None,
@@ -173,9 +174,11 @@ struct Run<'c> {
     starts: Starts,
     /// True where a word of the block at hand may have no value.
     vacant: bool,
+    /// True where a word of a block that sets what cycles take may have none.
+    set_vacant: bool,
     found: Found,
-    /// Loops in the place of threads, each with the block and the place in it where the thread stands.
-    loops: Vec<((usize, usize), Loop)>,
+    /// Loops in the place of cycles, each with the block and the place in it where the cycle stands.
+    loops: Vec<((usize, usize), Made)>,
     /// The first thread that is written out and cut on both flanks.
     flanks: Option<Span>,
 }
@@ -228,6 +231,7 @@ impl Run<'_> {
     /// Takes the values of a block that sets them; what else it does stays. It is written anew where the target has such a block.
     fn setup(&mut self, kind: &'static Kind, mut stmt: Stmt) -> Option<Stmt> {
         let nc = stmt.kind.nc()?;
+        self.set_vacant |= self.vacant;
         let values = values_of(nc, kind);
         let own = |item: &NcItem| match item {
             NcItem::Op(op) => *op == kind.setup,
@@ -306,8 +310,7 @@ impl Run<'_> {
         let may_write = if stood_in && self.other_unit { Err(OTHER_UNIT) } else { may };
         let finishing = given.as_ref().ok().map(|given| self.finishing(&stmt, given, &all, may));
         // A thread whose finishing passes cannot follow its cycle may be a loop of all its passes.
-        let beyond =
-            finishing.as_ref().map_or(threads.is_some(), |passes| passes.is_none() && may_write.is_ok());
+        let beyond = finishing.as_ref().map_or(writes, |passes| passes.is_none() && may_write.is_ok());
         if beyond || !elsewhere.is_empty() {
             match may_write.and_then(|()| self.written_out((&stmt, at), &all, kind)) {
                 Ok(passes) => {

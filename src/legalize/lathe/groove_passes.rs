@@ -155,7 +155,7 @@ pub(super) fn all(
 }
 
 /// True for the code and the words of a groove's cycle, and for what counts from its first move on.
-fn is_of_groove(item: &NcItem) -> bool {
+pub(super) fn is_of_groove(item: &NcItem) -> bool {
     match item {
         NcItem::Op(op) => matches!(op, Op::Groove | Op::FaceGroove),
         NcItem::Word(role, _) => matches!(

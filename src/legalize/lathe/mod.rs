@@ -12,6 +12,7 @@ mod cycle_values;
 pub mod cycle_words;
 mod drawn_lines;
 pub mod faces;
+mod groove_loops;
 mod groove_passes;
 pub mod held_holes;
 pub mod hole_codes;

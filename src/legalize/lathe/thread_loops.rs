@@ -9,6 +9,7 @@
 mod sums;
 
 use super::cycle_values::Values;
+use super::groove_loops::{self, Groove};
 use super::thread_passes::{RUN_OUT, UNKNOWN, alone, depths, is_of_thread, rounded, runs_out_by};
 use crate::canon::{Func, Op, Role};
 use crate::dialect::Control;
@@ -18,8 +19,7 @@ use crate::ir::{
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use std::collections::VecDeque;
-pub(super) use sums::counts;
-use sums::{difference, moved, product, quotient, sum, whole};
+pub(super) use sums::{counts, difference, moved, product, quotient, sum, whole};
 
 /// A thread whose numbers are computed; X as diameters, depths and the taper as radii.
 #[derive(Debug)]
@@ -107,8 +107,17 @@ impl Loop {
     }
 }
 
+/// What takes the place of a cycle.
+#[derive(Debug)]
+pub(super) enum Made {
+    /// The passes of a thread.
+    Thread(Loop),
+    /// The pecks of a groove.
+    Groove(Groove),
+}
+
 /// Writes the loops of a program, each with the block and the place in it where the cycle stands.
-pub(super) fn write(program: &mut Program, loops: Vec<((usize, usize), Loop)>) {
+pub(super) fn write(program: &mut Program, loops: Vec<((usize, usize), Made)>) {
     let (mut loops, mut place) = (VecDeque::from(loops), (0, 0));
     let mut temps = highest_temp(program);
     rebuild(program, &mut |builder, part| {
@@ -118,7 +127,10 @@ pub(super) fn write(program: &mut Program, loops: Vec<((usize, usize), Loop)>) {
         }
         let here = loops.front().is_some_and(|(at, _)| *at == place);
         match if here { loops.pop_front() } else { None } {
-            Some((_, found)) => Pen { builder, temps: &mut temps, found: &found }.write(),
+            Some((_, Made::Thread(found))) => Pen { builder, temps: &mut temps, found: &found }.write(),
+            Some((_, Made::Groove(found))) => {
+                groove_loops::Pen { builder, temps: &mut temps, found: &found }.write();
+            }
             None => part.keep(builder),
         }
         place.1 += 1;

@@ -1,10 +1,11 @@
 //! Cycles whose moves are written out, because the target has none that makes them.
 
 use super::super::cycle_values::{Given, Need, Values};
+use super::super::groove_loops::Groove;
 use super::super::groove_passes;
 use super::super::setting_values::{Instead, So, written};
 use super::super::settings::{Kind, setting};
-use super::super::thread_loops::Loop;
+use super::super::thread_loops::{Loop, Made};
 use super::super::thread_passes::{UNKNOWN, all, finishes, runs_out as single_passes};
 use super::{OTHER_UNIT, Run};
 use crate::assume::Predicate;
@@ -49,16 +50,25 @@ impl Run<'_> {
             _ => None,
         };
         if kind.cycle != Op::Threading {
-            return groove_passes::all(stmt, values, self.place, self.target);
+            return match groove_passes::all(stmt, values, self.place, self.target) {
+                // A word without a value would not be there, and the cycle begin elsewhere.
+                Err(UNKNOWN) if !self.may_be_vacant() => {
+                    let from = self.starts.at(&self.place);
+                    let found = Groove::of(stmt, values, from, (self.source, self.target))?;
+                    self.loops.push((at, Made::Groove(found)));
+                    Ok(vec![stmt.clone()])
+                }
+                made => made,
+            };
         }
         let passes = match all(stmt, values, leading, self.place, self.target) {
             Err(UNKNOWN) => {
                 let from = self.starts.at(&self.place);
                 let found = Loop::of(stmt, values, leading, from, (self.source, self.target))?;
-                if self.vacant || self.starts.may_be_vacant(&self.place) {
+                if self.may_be_vacant() {
                     self.found.push((stmt.site.span, VACANT.into(), VACANT_HELP.into(), So::Open));
                 }
-                self.loops.push((at, found));
+                self.loops.push((at, Made::Thread(found)));
                 vec![stmt.clone()]
             }
             made => made?,
@@ -68,6 +78,11 @@ impl Run<'_> {
             self.flanks.get_or_insert(stmt.site.span);
         }
         Ok(passes)
+    }
+
+    /// True where a word of the cycle, of the block that sets it, or of where it begins may have no value.
+    fn may_be_vacant(&self) -> bool {
+        self.vacant || self.set_vacant || self.starts.may_be_vacant(&self.place)
     }
 
     /// The finishing passes that the target's cycle does not make. Nothing, if they cannot follow it.

@@ -6,7 +6,7 @@ use crate::dialect::Control;
 use crate::ir::{BinOp, Expr};
 
 /// A depth that was told as a count of increments, of which the source takes whole ones: `ROUND[#1]/1000`.
-pub(super) fn whole(value: Expr, role: Role, source: &Control) -> Expr {
+pub(in crate::legalize::lathe) fn whole(value: Expr, role: Role, source: &Control) -> Expr {
     match value {
         Expr::Binary(BinOp::Div, parts) if counted(source, role) => {
             let [count, parts] = *parts;
@@ -26,14 +26,14 @@ pub(in crate::legalize::lathe) fn counts(value: &Expr) -> bool {
 }
 
 /// A place, so many times a length farther.
-pub(super) fn moved(from: Expr, times: Expr, length: Expr) -> Expr {
+pub(in crate::legalize::lathe) fn moved(from: Expr, times: Expr, length: Expr) -> Expr {
     match times.constant() {
         Some(times) if times < 0.0 => difference(from, product(number(-times), length)),
         _ => sum(from, product(times, length)),
     }
 }
 
-pub(super) fn difference(a: Expr, b: Expr) -> Expr {
+pub(in crate::legalize::lathe) fn difference(a: Expr, b: Expr) -> Expr {
     match (a.constant(), b.constant()) {
         _ if a == b => Expr::Number(0.0),
         (Some(a), Some(b)) => number(a - b),
@@ -42,7 +42,7 @@ pub(super) fn difference(a: Expr, b: Expr) -> Expr {
     }
 }
 
-pub(super) fn sum(a: Expr, b: Expr) -> Expr {
+pub(in crate::legalize::lathe) fn sum(a: Expr, b: Expr) -> Expr {
     match (a.constant(), b.constant()) {
         (Some(a), Some(b)) => number(a + b),
         (_, Some(0.0)) if !a.may_be_vacant() => a,
@@ -50,7 +50,7 @@ pub(super) fn sum(a: Expr, b: Expr) -> Expr {
     }
 }
 
-pub(super) fn product(a: Expr, b: Expr) -> Expr {
+pub(in crate::legalize::lathe) fn product(a: Expr, b: Expr) -> Expr {
     match (a.constant(), b.constant()) {
         (Some(a), Some(b)) => number(a * b),
         (Some(0.0), _) | (_, Some(0.0)) => Expr::Number(0.0),
@@ -59,7 +59,7 @@ pub(super) fn product(a: Expr, b: Expr) -> Expr {
     }
 }
 
-pub(super) fn quotient(a: Expr, b: Expr) -> Expr {
+pub(in crate::legalize::lathe) fn quotient(a: Expr, b: Expr) -> Expr {
     match (a.constant(), b.constant()) {
         (Some(a), Some(b)) if b != 0.0 => number(a / b),
         _ => Expr::binary(BinOp::Div, a, b),
