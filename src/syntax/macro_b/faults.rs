@@ -31,6 +31,13 @@ pub fn explain(source: &[u8], block: Span, line_start: u32, shape: &Shape, stop:
     at_stop(block, before.trim_ascii_end(), next, stop)
 }
 
+/// True where a code with its number stands there: `M98`, `G65`.
+fn after_code(before: &[u8]) -> bool {
+    let digits = before.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
+    let letter = before.iter().rev().nth(digits);
+    digits > 0 && letter.is_some_and(|letter| b"GMgm".contains(letter))
+}
+
 /// The reason, judged by what stands on both sides of the place.
 fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxError {
     let one = Span::new(stop.at, stop.at + u32::from(!next.is_empty()));
@@ -50,6 +57,13 @@ fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxErr
         ),
         Some(b'<' | b'>' | b'=') if expects(Lex::Operator) => {
             fault(Code::RelationalSign, one, "write comparisons as EQ, NE, GT, GE, LT or LE")
+        }
+        // A control that keeps programs in files calls them by their names too.
+        Some(b'<') if next.contains(&b'>') && after_code(before) => {
+            let end = next.iter().position(|byte| *byte == b'>').unwrap_or_default() as u32;
+            let message = "a program is called by the name of its file, and only numbers are read here: give the file a number, \
+                           and call it by P";
+            fault(Code::Unreadable, Span::new(stop.at, stop.at + end + 1), message)
         }
         Some(b'0') if last == b'D' && expects(Lex::Do) => loop_word(one),
         Some(b'D' | b'd') if expects(Lex::Do) && next.get(1) == Some(&b'0') => loop_word(one),

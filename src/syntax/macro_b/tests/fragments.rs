@@ -174,3 +174,16 @@ fn depth_is_an_error_and_no_overflow() {
         }
     }
 }
+
+/// Fanuc 30i: M98 <NAME> calls the program of that file.
+#[test]
+fn a_call_by_the_name_of_a_file_is_told() {
+    for block in ["M98<PART_1>", "M98 <PART_1> L2", "G65 <PART_1> A1."] {
+        let fault = &faults(&FANUC, block.as_bytes())[0];
+        assert!(fault.message.contains("by the name of its file"), "{block}: {}", fault.message);
+    }
+    for block in ["M98 <", "X5. <A>", "IF[#1 <2]GOTO3", "#1=<2>", "IF[#1 < #2 > 3]GOTO3"] {
+        let found = faults(&FANUC, block.as_bytes());
+        assert!(!found[0].message.contains("file"), "{block}: {}", found[0].message);
+    }
+}
