@@ -78,6 +78,10 @@ pub struct Numbers {
     pub bare_argument: BareLength,
     /// What a feed without a decimal point counts.
     pub bare_feed: BareLength,
+    /// True where a feed without a point, in millimetres a minute, is as written, and `bare_feed` is `unknown`: a feed in inches
+    /// or a turn may count otherwise.
+    #[serde(default)]
+    pub whole_feeds: bool,
     /// How many counts make one unit of a feed without a point that counts units: 10 where it counts tenths.
     #[serde(default = "one")]
     pub feed_parts: f64,

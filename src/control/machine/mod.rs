@@ -228,6 +228,11 @@ impl Machine {
         self.inch
     }
 
+    /// True where a feed is millimetres a minute.
+    pub fn feeds_millimetres(&self) -> bool {
+        !self.inch && self.feed_mode == FeedMode::PerMinute
+    }
+
     /// Takes the unit that a block names, ahead of the block's words.
     pub fn name_unit(&mut self, op: Op) {
         match op {

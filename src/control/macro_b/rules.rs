@@ -1,7 +1,7 @@
 //! The answers of the table that running rests on, read once.
 
 use super::numeric::{Answer, yes};
-use crate::dialect::{BareLength, Control, Question};
+use crate::dialect::{BareLength, Control, Machine, Question};
 
 /// What a number of a dwell counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +56,7 @@ pub struct Rules {
     pub bare_length: BareLength,
     pub bare_feed: BareLength,
     pub feed_parts: f64,
+    pub whole_feeds: bool,
     pub feed_unsure: bool,
     /// The letters that the control gives a point where lengths count units.
     pub pointed: String,
@@ -133,6 +134,7 @@ impl Rules {
             bare_length: numbers.bare_length,
             bare_feed: numbers.bare_feed,
             feed_parts: numbers.feed_parts,
+            whole_feeds: numbers.whole_feeds && control.machine() == Machine::Mill,
             feed_unsure: control.profile().decimal_point.is_some() && !numbers.feed_stated,
             pointed: numbers.calculator_letters.clone(),
             numbers_unsure: !numbers.origin.is_settled(),

@@ -127,7 +127,10 @@ impl<'c> Runner<'c> {
             return Ok(value / self.rules.scale_parts.ask(&mut self.session.trace));
         }
         let Some(increment) = increment else { return Ok(value) };
-        if role == Role::Feed && self.rules.feed_unsure {
+        let left = role == Role::Feed && bare == BareLength::Unknown;
+        if left && self.rules.whole_feeds && self.session.machine.feeds_millimetres() {
+            // As written.
+        } else if left || role == Role::Feed && self.rules.feed_unsure {
             self.session.trace.doubt("numbers:bare_feed");
         } else if self.rules.numbers_unsure || bare == BareLength::Unknown {
             self.session.trace.doubt("numbers");

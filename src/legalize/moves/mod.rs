@@ -3,6 +3,7 @@
 pub(in crate::legalize) mod absolute_places;
 pub(in crate::legalize) mod added_angles;
 pub(in crate::legalize) mod bare_arcs;
+pub(in crate::legalize) mod bare_feeds;
 pub(in crate::legalize) mod first_increments;
 pub(in crate::legalize) mod home;
 pub(in crate::legalize) mod increments;

@@ -9,7 +9,7 @@ use crate::legalize::cycles::{
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
-use crate::legalize::moves::first_increments;
+use crate::legalize::moves::{bare_feeds, first_increments};
 use crate::legalize::offsets::{arc_starts, missing_length};
 
 pub(super) const SOURCE: &[Pass] = &[
@@ -21,6 +21,12 @@ pub(super) const SOURCE: &[Pass] = &[
     .when(|c, _| c.has(Feature::Computed)),
     Pass::edits("other-kind", "refuses programs of the other kind of machine", other_kind::run)
         .when(other_kind::concerns),
+    Pass::rewrites(
+        "bare-feeds",
+        "feeds without a decimal point get the value that the modes give",
+        bare_feeds::run,
+    )
+    .when(bare_feeds::concerns),
     HELD_HOLES,
     HOLE_CODES,
     INTERPOLATIONS,

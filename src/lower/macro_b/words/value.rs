@@ -57,7 +57,7 @@ impl<'a> Lowering<'a> {
             return Some((role, Expr::Number(number)));
         }
         if !counted {
-            return Some((role, self.bare_feed(number, value.span)));
+            return Some((role, self.bare_feed(role, number, value.span)));
         }
         self.rest_on_numbers(value.span);
         let counts = self.control.bare_length_of(letter);
@@ -91,7 +91,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A feed's number without a point: what is said of lengths may leave it open.
-    fn bare_feed(&mut self, number: f64, span: Span) -> Expr {
+    fn bare_feed(&mut self, role: Role, number: f64, span: Span) -> Expr {
         if self.inverse {
             let message =
                 "F without a decimal point counts otherwise under inverse time feed: write the point";
@@ -109,6 +109,11 @@ impl<'a> Lowering<'a> {
             self.findings.add(finding.lacking("setting.bare_feed"));
             return Expr::Number(number);
         }
+        let left = counts == BareLength::Unknown && self.control.machine() == Machine::Mill;
+        if left && role == Role::Feed && self.control.numbers().whole_feeds {
+            // The unit and the feed mode in force tell it: `legalize/moves/bare_feeds.rs`.
+            return Expr::Increments(number);
+        }
         if open && counts != BareLength::Unknown {
             let note = "what a feed without a decimal point counts: the sources say it of lengths alone";
             self.findings.unconfirmed(BARE_FEED.into(), Some(note), span);
@@ -117,7 +122,8 @@ impl<'a> Lowering<'a> {
         }
         let number =
             if counts == BareLength::Units { number / self.control.numbers().feed_parts } else { number };
-        self.counted(counts, number, "a feed", if open { BARE_FEED } else { "numbers" }, span)
+        let unsaid = open || counts == BareLength::Unknown;
+        self.counted(counts, number, "a feed", if unsaid { BARE_FEED } else { "numbers" }, span)
     }
 
     fn counted(&mut self, counts: BareLength, number: f64, what: &str, fact: &str, span: Span) -> Expr {
