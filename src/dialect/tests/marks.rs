@@ -90,8 +90,8 @@ fn a_common_fact_brings_a_note() {
     let told = plain.unconfirmed(Side::Source, fact, None, Span::new(0, 1));
     assert_eq!((told.code, told.severity()), (Code::CommonFact, Severity::Note));
     assert_eq!(told.fact(), Some(fact));
-    assert_eq!(plain.mark("behaviour:select.ends.set.position"), Mark::Unconfirmed);
-    let told = plain.unconfirmed(Side::Source, "behaviour:select.ends.set.position", None, Span::new(0, 1));
+    assert_eq!(plain.mark("behaviour:bits.of.fraction"), Mark::Unconfirmed);
+    let told = plain.unconfirmed(Side::Source, "behaviour:bits.of.fraction", None, Span::new(0, 1));
     assert_eq!((told.code, told.severity()), (Code::UnconfirmedFact, Severity::Review));
     assert_eq!(plain.mark("code:M77"), Mark::Unconfirmed);
     let checked = Control::from_profile(&format!("dialect = \"fanuc\"\nconfirm = [\"{fact}\"]")).unwrap();
