@@ -90,7 +90,13 @@ struct Stop {
 /// The blocks in which something has to be ended.
 fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let mut found = Vec::new();
-    if !module.programs.iter().flat_map(|program| &program.blocks).any(stops_in) {
+    // The text of a piece of a program ends, and the run does not.
+    let piece = if context.goes_on { module.programs.len().checked_sub(1) } else { None };
+    let ends =
+        |index: usize, kind: &TermKind| ends_run(kind) && !(piece == Some(index) && *kind == TermKind::Stray);
+    let asks = |index: usize, block: &Block| ends(index, &block.term.kind) || stops_in(block);
+    let mut programs = module.programs.iter().enumerate();
+    if !programs.any(|(index, program)| program.blocks.iter().any(|block| asks(index, block))) {
         return found;
     }
     let facts = context.modal_facts(module);
@@ -102,13 +108,14 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     };
     let passes = passes(context.target) && !passes(context.source);
     for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| stops_in(block)) {
+        for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| asks(index, block)) {
             let mut place = Place {
                 index,
                 id,
                 state: facts.at(index, id),
                 restarted: [false; 2],
                 skipped: false,
+                ends: ends(index, &block.term.kind),
                 started: started[index],
                 holds,
                 lost,
@@ -133,7 +140,9 @@ fn lost(module: &Module, source: &Control) -> [bool; 2] {
     Running::ALL.map(|running| {
         let (group, _) = ends(running);
         blocks().any(|block| {
-            block.stmts.iter().fold(false, |ended, stmt| {
+            // Words alone neither stop nor say anything.
+            let says = |stmt: &&Stmt| !matches!(&stmt.kind, StmtKind::Nc(nc) if nc.is_words());
+            block.stmts.iter().filter(says).fold(false, |ended, stmt| {
                 let may_end = |(pause, _)| source.ends(pause, running).answer != Some(false);
                 let stops = pause_of(&stmt.kind).filter(|(pause, _)| *pause != Pause::Message);
                 let says = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.ops().any(|op| op.group() == group));
@@ -220,6 +229,8 @@ struct Place<'p> {
     restarted: [bool; 2],
     /// True where a block skip may leave it out.
     skipped: bool,
+    /// True where the run ends at the end of the block.
+    ends: bool,
     /// Whether the program, or one that calls it or that it calls, starts it.
     started: [bool; 2],
     /// True if some program of the library holds the spindle at an angle.
@@ -260,8 +271,7 @@ impl Place<'_> {
             }
             found.insert(number, before);
         }
-        let goes_on = context.goes_on && self.index + 1 == context.origins.len();
-        if ends_run(&block.term.kind) && !(goes_on && block.term.kind == TermKind::Stray) {
+        if self.ends {
             (self.restarted, self.skipped) = ([false; 2], false);
             let before =
                 self.stop((Pause::End, false, false, true), usize::MAX, block.term.site.span, context);

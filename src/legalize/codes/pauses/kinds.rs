@@ -10,9 +10,9 @@ pub(super) fn ends_run(kind: &TermKind) -> bool {
     matches!(kind, TermKind::End { .. } | TermKind::Stray)
 }
 
-/// True for a block with a stop, or at whose end the run ends.
+/// True for a block with a stop.
 pub(super) fn stops_in(block: &Block) -> bool {
-    ends_run(&block.term.kind) || block.stmts.iter().any(|stmt| pause_of(&stmt.kind).is_some())
+    block.stmts.iter().any(|stmt| pause_of(&stmt.kind).is_some())
 }
 
 /// The kind of stop that a statement is, and whether it may be switched off. A question stops like a message.
