@@ -14,6 +14,7 @@ use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, StmtKind, TermK
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
+use std::cell::Cell;
 
 /// True where something is computed or called, a cycle stands, or an arc by its radius has an end that counts increments.
 pub fn concerns(features: &Features) -> bool {
@@ -51,13 +52,20 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let summaries = context.summaries(module);
     for (index, program) in module.programs.iter().enumerate() {
         let assigned = Assigned::new(program, &summaries);
+        // What is said of a divisor is said once a program.
+        let divides = Cell::new(false);
+        let zero = |e: &Expr, place| {
+            let may = !divides.get() && may_be_zero(e, &assigned, place);
+            divides.set(divides.get() || may);
+            may
+        };
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
             let mut spindle =
                 stood.as_ref().and_then(|stood| stood.at(index, id)).copied().unwrap_or_default();
             for (at, stmt) in block.stmts.iter().enumerate() {
                 let span = stmt.site.span;
-                let zero = |e: &Expr| may_be_zero(e, &assigned, (id, at));
+                let zero = |e: &Expr| zero(e, (id, at));
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, &zero, context)));
                 if let Some(place) = stmt.kind.target() {
                     value(&place.read(), index, span, &zero, context);
@@ -96,7 +104,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 }
             }
             let span = block.term.site.span;
-            let zero = |e: &Expr| may_be_zero(e, &assigned, (id, block.stmts.len()));
+            let zero = |e: &Expr| zero(e, (id, block.stmts.len()));
             block.term.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, &zero, context)));
             if let TermKind::Call { call, .. } = &block.term.kind
                 && call.count.is_some()
