@@ -12,7 +12,7 @@ use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, OperandPlace, Side};
-use crate::ir::analysis::{Constant, Ranges, Summaries, Values, values_at};
+use crate::ir::analysis::{Assigned, Constant, Ranges, Summaries, Values};
 use crate::ir::{
     BlockId, Builder, Cond, Expr, Module, Nc, NcItem, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind,
 };
@@ -21,6 +21,7 @@ use crate::legalize::by_program::look_at_each;
 use crate::legalize::codes::by_number::is_same;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{Part, rebuild, unless_skipped};
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
 /// Most codes that a block is written out for.
@@ -103,10 +104,15 @@ fn chains(
     context: &Context<'_>,
 ) -> BTreeMap<(BlockId, usize), Chain> {
     let mut found = BTreeMap::new();
+    let values = Known {
+        assigned: Assigned::new(program, summaries),
+        sure: LazyCell::new(|| Ranges::of_any_inputs_and_codes(program, summaries)),
+        likely: LazyCell::new(|| Ranges::of_constants_and_codes(program, summaries)),
+    };
     for (id, block) in program.ids().zip(&program.blocks) {
         for (at, stmt) in block.stmts.iter().enumerate() {
             if let StmtKind::Nc(nc) = &stmt.kind
-                && let Some(chain) = chain(program, summaries, (id, at), nc, context)
+                && let Some(chain) = chain(&values, (id, at), nc, context)
             {
                 found.insert((id, at), chain);
             }
@@ -115,9 +121,17 @@ fn chains(
     found
 }
 
-fn chain(
-    program: &Program,
-    summaries: &Summaries,
+/// The values of a program's variables.
+struct Known<'p, S, L> {
+    assigned: Assigned<'p>,
+    /// Whatever an operator edits.
+    sure: LazyCell<Ranges<'p>, S>,
+    /// Where nobody edits anything.
+    likely: LazyCell<Ranges<'p>, L>,
+}
+
+fn chain<'p>(
+    values: &Known<'p, impl FnOnce() -> Ranges<'p>, impl FnOnce() -> Ranges<'p>>,
     (id, at): (BlockId, usize),
     nc: &Nc,
     context: &Context<'_>,
@@ -132,9 +146,9 @@ fn chain(
         Values::Few(numbers) if !numbers.is_empty() => Some(numbers),
         _ => None,
     };
-    let sure = few(Ranges::of_any_inputs_and_codes(program, summaries).at(id, at, value));
+    let sure = few(values.sure.at(id, at, value));
     let found = match value {
-        Expr::Var(var) => values_at(program, summaries, *var, id, at),
+        Expr::Var(var) => values.assigned.at(*var, id, at),
         _ => None,
     };
     let may_be_vacant =
@@ -150,12 +164,9 @@ fn chain(
         Some(numbers)
     });
     let (may_miss, is_listed) = (sure.is_none(), listed.is_some());
-    let numbers = listed
-        .or(sure)
-        .or_else(|| few(Ranges::of_constants_and_codes(program, summaries).at(id, at, value)))
-        .filter(|numbers| {
-            (1..=MOST).contains(&numbers.len()) && numbers.iter().all(|n| n.fract() == 0.0 && *n >= 0.0)
-        })?;
+    let numbers = listed.or(sure).or_else(|| few(values.likely.at(id, at, value))).filter(|numbers| {
+        (1..=MOST).contains(&numbers.len()) && numbers.iter().all(|n| n.fract() == 0.0 && *n >= 0.0)
+    })?;
     // The target takes the number as it is: all that it may be are known, or both controls number their codes alike.
     let taken = target.form(OperandPlace::Code).is_some() && (is_listed || context.number_alike(letter));
     if taken && numbers.iter().all(|number| is_same(letter, *number, source, target)) {
