@@ -39,9 +39,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         && source.name() != target.name()
         && !target.numbers().origin.is_settled()
         && target.profile().decimal_point.is_none();
-    let mut given = false;
+    if !has_any(module, &counts) {
+        return false;
+    }
+    // No unit hangs on a count.
+    let units = InForce::of(module, context);
     if asked && target.bare_length() == BareLength::Increments && same_increments(source, target) {
-        given = each(module, context, None, counts, &mut |kind, units| match kind {
+        take(module, context, &units, None, counts, &mut |kind, units| match kind {
             Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
                 NcItem::Word(Role::Feed, _) => true,
                 NcItem::Word(role, value) => convert(value, role.is_angle(), units, source),
@@ -49,11 +53,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             }),
             _ => true,
         });
-        if given {
-            context.forget();
-        }
+        context.forget();
     }
-    let changed = each(module, context, Some(TEXTS), counts, &mut |kind, units| match kind {
+    take(module, context, &units, Some(TEXTS), counts, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
             NcItem::Word(role, value) => word(value, *role, units, source, target),
             _ => true,
@@ -62,7 +64,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         Counted::Call(call) => arguments(call, units, source, keeps),
         Counted::Stmt(_) => true,
     });
-    given || changed
+    true
 }
 
 /// Converts those of the arguments of modal calls: they count in the unit where the call is opened, and
@@ -101,14 +103,46 @@ pub(in crate::legalize) fn each(
     chosen: impl Fn(&Block) -> bool,
     convert: &mut dyn FnMut(Counted<'_>, Option<Units>) -> bool,
 ) -> bool {
-    if !module.programs.iter().flat_map(|program| &program.blocks).any(&chosen) {
-        return false;
+    let any = has_any(module, &chosen);
+    if any {
+        let units = InForce::of(module, context);
+        take(module, context, &units, texts, chosen, convert);
     }
-    let left = ExitUnit::of(module, context);
-    let all = left.iter().copied().fold(ExitUnit::default(), ExitUnit::join);
-    let facts = facts(module, context, all);
+    any
+}
+
+fn has_any(module: &Module, chosen: &impl Fn(&Block) -> bool) -> bool {
+    module.programs.iter().flat_map(|program| &program.blocks).any(chosen)
+}
+
+/// What is known of the units of a library.
+struct InForce {
+    /// By program, which it may leave.
+    left: Vec<ExitUnit>,
+    /// Which any of them may leave.
+    all: ExitUnit,
+    facts: Arc<ModalFacts>,
+}
+
+impl InForce {
+    fn of(module: &Module, context: &Context<'_>) -> Self {
+        let left = ExitUnit::of(module, context);
+        let all = left.iter().copied().fold(ExitUnit::default(), ExitUnit::join);
+        Self { left, all, facts: facts(module, context, all) }
+    }
+}
+
+/// Does what [`each`] says, with what is known of the units.
+fn take(
+    module: &mut Module,
+    context: &mut Context<'_>,
+    InForce { left, all, facts }: &InForce,
+    texts: Option<Texts>,
+    chosen: impl Fn(&Block) -> bool,
+    convert: &mut dyn FnMut(Counted<'_>, Option<Units>) -> bool,
+) {
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let units = UnitsIn::of(program, index, &facts, &chosen);
+        let units = UnitsIn::of(program, index, facts, &chosen);
         let guesses = if units.is_known() { None } else { Some(guesses(program, left[index], &chosen)) };
         // What is in force where no program names a unit, or where all name the machine's.
         let machine = context.source.units().filter(|units| all.keeps(*units));
@@ -136,7 +170,6 @@ pub(in crate::legalize) fn each(
         let Some(texts) = texts else { continue };
         report(index, texts, unknown, guessed.filter(|_| left[index].outside), context);
     }
-    true
 }
 
 /// Reports the first number whose unit is not known, and the first whose unit rests on what the library has not.
