@@ -13,7 +13,8 @@ use crate::ir::analysis::dataflow::{Lattice, Routines};
 use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::syntax::{Label, ProgramName};
 use foldhash::HashMap;
-use std::collections::{BTreeMap, BTreeSet};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 /// The modal state at the start of every block of a library.
@@ -97,7 +98,12 @@ struct Analysis<'m> {
     firsts: Vec<usize>,
     /// By routine, the blocks that it can run.
     reach: BTreeMap<usize, BTreeSet<BlockId>>,
+    /// The last states that were like none of these.
+    recent: VecDeque<Arc<Modal>>,
 }
+
+/// States that are kept to be shared.
+const RECENT: usize = 16;
 
 impl<'m> Analysis<'m> {
     fn new(module: &'m Module, copies: bool) -> Self {
@@ -120,6 +126,7 @@ impl<'m> Analysis<'m> {
             entries: Routines::new(firsts.last().copied().unwrap_or_default()),
             firsts,
             reach: BTreeMap::new(),
+            recent: VecDeque::new(),
         }
     }
 
@@ -181,7 +188,7 @@ impl<'m> Analysis<'m> {
 
     fn block(&mut self, (index, id): Place, entry: Arc<Modal>) {
         let Some(block) = self.module.programs[index].block(id) else { return };
-        let mut state = Arc::clone(&entry);
+        let mut state = Cow::Borrowed(&*entry);
         for stmt in block.stmts.iter().filter(|stmt| Modal::may_step(stmt)) {
             let nested = state.calls.as_ref().is_some_and(|calls| !calls.is_empty());
             if let StmtKind::ModalCall(call) = &stmt.kind
@@ -191,11 +198,12 @@ impl<'m> Analysis<'m> {
                 let inside = Modal::unknown_under(&state);
                 self.call((index, id), call, &Arc::new(inside));
             }
-            Arc::make_mut(&mut state).step(stmt);
+            state.to_mut().step(stmt);
         }
-        if !Arc::ptr_eq(&state, &entry) && state == entry {
-            state = entry;
-        }
+        let state = match state {
+            Cow::Borrowed(_) => entry,
+            Cow::Owned(state) => self.shared(&entry, state),
+        };
         match &block.term.kind {
             TermKind::Call { call, next } => {
                 if let Some(after) = self.call((index, id), call, &state) {
@@ -205,6 +213,17 @@ impl<'m> Analysis<'m> {
             TermKind::Return { to } => self.returned((index, id), to.as_ref(), &state),
             kind => kind.successors().into_iter().for_each(|to| self.go((index, to), &state)),
         }
+    }
+
+    /// A state, in the place of an equal one before it: programs go through few, again and again.
+    fn shared(&mut self, before: &Arc<Modal>, state: Modal) -> Arc<Modal> {
+        if let Some(same) = [before].into_iter().chain(&self.recent).find(|other| ***other == state) {
+            return Arc::clone(same);
+        }
+        let state = Arc::new(state);
+        self.recent.truncate(RECENT - 1);
+        self.recent.push_front(Arc::clone(&state));
+        state
     }
 
     /// Enters a callee and yields the state after the call; none if it is not known to return.
