@@ -92,9 +92,9 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let mut found = Vec::new();
     // The text of a piece of a program ends, and the run does not.
     let piece = if context.goes_on { module.programs.len().checked_sub(1) } else { None };
-    let ends =
+    let run_ends =
         |index: usize, kind: &TermKind| ends_run(kind) && !(piece == Some(index) && *kind == TermKind::Stray);
-    let asks = |index: usize, block: &Block| ends(index, &block.term.kind) || stops_in(block);
+    let asks = |index: usize, block: &Block| run_ends(index, &block.term.kind) || stops_in(block);
     let mut programs = module.programs.iter().enumerate();
     if !programs.any(|(index, program)| program.blocks.iter().any(|block| asks(index, block))) {
         return found;
@@ -115,7 +115,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 state: facts.at(index, id),
                 restarted: [false; 2],
                 skipped: false,
-                ends: ends(index, &block.term.kind),
+                ends: run_ends(index, &block.term.kind),
                 started: started[index],
                 holds,
                 lost,
@@ -141,8 +141,8 @@ fn lost(module: &Module, source: &Control) -> [bool; 2] {
         let (group, _) = ends(running);
         blocks().any(|block| {
             // Words alone neither stop nor say anything.
-            let says = |stmt: &&Stmt| !matches!(&stmt.kind, StmtKind::Nc(nc) if nc.is_words());
-            block.stmts.iter().filter(says).fold(false, |ended, stmt| {
+            let has_codes = |stmt: &&Stmt| !matches!(&stmt.kind, StmtKind::Nc(nc) if nc.is_words());
+            block.stmts.iter().filter(has_codes).fold(false, |ended, stmt| {
                 let may_end = |(pause, _)| source.ends(pause, running).answer != Some(false);
                 let stops = pause_of(&stmt.kind).filter(|(pause, _)| *pause != Pause::Message);
                 let says = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.ops().any(|op| op.group() == group));

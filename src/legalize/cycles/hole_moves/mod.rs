@@ -33,7 +33,7 @@ use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
 use crate::text::Span;
 use drill::{Cycle, Drill, Height, Known, Runs, Told, tells, unplaced};
 use flow::{Flow, Vacancies, named_unit, says_motion, step};
-use moves::{Hole, Part, hole};
+use moves::{Hole, Part, counts, hole};
 use pen::{Pen, push};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -352,7 +352,8 @@ impl Writer<'_, '_> {
                 None => before.begins_at().map(Expr::Number).filter(|_| begins),
             };
             let Some(word) = word else { continue };
-            if !self.held[what as usize] {
+            // A count of a unit that nobody knows is refused already.
+            if !self.held[what as usize] || counts(&word) {
                 continue;
             }
             if word.may_be_vacant() && self.vacant {

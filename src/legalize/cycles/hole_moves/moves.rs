@@ -48,6 +48,13 @@ pub(super) fn of(value: Value, what: Told, first: u32) -> Option<Expr> {
     }
 }
 
+/// True for a number of least increments, whose size is not known yet.
+pub(super) fn counts(word: &Expr) -> bool {
+    let mut found = false;
+    word.walk(&mut |e| found |= matches!(e, Expr::Increments(_)));
+    found
+}
+
 /// The sum, folded where both are known.
 fn sum(a: Expr, b: Expr) -> Expr {
     match (a.constant(), b.constant()) {
