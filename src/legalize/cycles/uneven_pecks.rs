@@ -7,7 +7,7 @@
 use super::even_pecks::{by_depth, even, pecks};
 use super::hole_moves;
 use crate::canon::Role;
-use crate::ir::{Callee, Module, Program};
+use crate::ir::{Callee, Module, Nc, Program};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, calls_of};
 use std::collections::BTreeSet;
@@ -45,7 +45,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
-    hole_moves::write(module, context, Some(&all));
+    // A tap beside them has no moves, and the target has a code for it: then these pecks alone are refused, by their words.
+    if all.iter().all(|index| has_moves_only(&module.programs[*index])) {
+        hole_moves::write(module, context, Some(&all));
+    }
+}
+
+/// True for a program all of whose cycles can be written as moves.
+fn has_moves_only(program: &Program) -> bool {
+    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    let mut ops = stmts.filter_map(|stmt| stmt.kind.nc()).flat_map(Nc::ops);
+    ops.all(|op| !op.is_cycle() || hole_moves::has_moves(op))
 }
 
 /// The programs of the library that a program calls.

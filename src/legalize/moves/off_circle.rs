@@ -8,7 +8,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem};
+use crate::ir::{self, BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::moves::short_arcs::{is_arc, keeps, stands};
 use crate::legalize::{Context, Modal};
@@ -41,7 +41,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             let mut place = Place { at: [None; 3], lathe, plane };
             for stmt in &block.stmts {
                 state.step(stmt);
-                let Some(nc) = stmt.kind.nc() else { continue };
+                let Some(nc) = stmt.kind.nc() else {
+                    if !leaves_place(&stmt.kind) {
+                        place.at = [None; 3];
+                    }
+                    continue;
+                };
                 if !stands(nc) || changes_tool(nc) {
                     place.at = [None; 3];
                 }
@@ -57,7 +62,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-/// The plane that every program of its kind begins in; none where a block names another one.
+/// The plane that programs begin in, by the kind of machine; none if a block of the library names another one.
 fn plane_of_all(module: &Module, lathe: bool) -> Option<Op> {
     let plane = if lathe { Op::PlaneZx } else { Op::PlaneXy };
     let mut ops = (module.programs.iter().flat_map(|program| &program.blocks))
@@ -65,6 +70,11 @@ fn plane_of_all(module: &Module, lathe: bool) -> Option<Op> {
         .filter_map(|stmt| stmt.kind.nc())
         .flat_map(Nc::ops);
     (!ops.any(|op| op.group() == Group::Plane && op != plane)).then_some(plane)
+}
+
+/// True for what changes no coordinates: a write to an offset does (`#5221=1.`).
+fn leaves_place(kind: &StmtKind) -> bool {
+    matches!(kind, StmtKind::Comment | StmtKind::Assign { target: ir::Place::Var(_), .. })
 }
 
 /// True for what shifts coordinates by a tool's offset: until the next words, where the tool stands in them is not known.
@@ -86,7 +96,7 @@ fn told(off: f64) -> String {
     )
 }
 
-/// Where the tool stands, as words tell it; none where the blocks before do not say.
+/// Where the tool stands, axis by axis; none if the blocks before do not say it.
 struct Place {
     at: [Option<f64>; 3],
     /// True where X words are diameters.
@@ -134,14 +144,14 @@ impl Place {
 
     /// Goes where a block sends the tool.
     fn step(&mut self, nc: &Nc, state: &Modal, skips: bool) {
-        let incremental = state.op(Group::Distance);
+        let distance = state.op(Group::Distance);
         for (axis, (role, step, _)) in AXES.into_iter().enumerate() {
             let number = |word: &Expr| word.constant().filter(|_| !skips);
             match (nc.word(role), nc.word(step)) {
                 (None, None) => {}
-                (Some(word), None) if incremental == Some(Op::Absolute) => self.at[axis] = number(word),
+                (Some(word), None) if distance == Some(Op::Absolute) => self.at[axis] = number(word),
                 (Some(word), None) | (None, Some(word)) => {
-                    let known = incremental.is_some() || nc.word(step).is_some();
+                    let known = distance.is_some() || nc.word(step).is_some();
                     self.at[axis] =
                         number(word).zip(self.at[axis]).map(|(way, at)| at + way).filter(|_| known);
                 }

@@ -81,10 +81,18 @@ impl Follow for Flow<'_> {
 }
 
 impl Flow<'_> {
-    /// What holes of the library take from registers.
-    pub fn held(&self, module: &Module, known: &OverCalls<Known>) -> [bool; 6] {
+    /// What holes of the library, or of these programs of it, take from registers.
+    pub fn held(
+        &self,
+        module: &Module,
+        known: &OverCalls<Known>,
+        only: Option<&BTreeSet<usize>>,
+    ) -> [bool; 6] {
         let mut held = [false; 6];
         for (index, program) in module.programs.iter().enumerate() {
+            if only.is_some_and(|only| !only.contains(&index)) {
+                continue;
+            }
             for (id, block) in program.ids().zip(&program.blocks) {
                 let Some(mut known) = known.at(index, id).cloned() else { continue };
                 let mut modal = self.facts.at(index, id);

@@ -33,6 +33,7 @@ use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
 use crate::text::Span;
 use drill::{Cycle, Drill, Height, Known, Runs, Told, tells, unplaced};
 use flow::{Flow, Vacancies, named_unit, says_motion, step};
+pub(super) use moves::has_moves;
 use moves::{Hole, Part, counts, hole};
 use pen::{Pen, push};
 use std::collections::{BTreeMap, BTreeSet};
@@ -65,7 +66,7 @@ pub(super) fn write(module: &mut Module, context: &mut Context<'_>, only: Option
     let vacancies = Vacancies::of(module, &context.summaries(module));
     let flow = Flow { facts: &facts, runs: rules, vacancies: &vacancies };
     let known = OverCalls::of(module, &flow);
-    let held = flow.held(module, &known);
+    let held = flow.held(module, &known, only);
     let inch = named_unit(module);
     if only.is_some() && held.contains(&true) {
         return;

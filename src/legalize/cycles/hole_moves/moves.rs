@@ -23,6 +23,21 @@ pub(super) struct Hole {
     pub parts: Vec<Part>,
 }
 
+/// True for a cycle whose moves are known.
+pub fn has_moves(op: Op) -> bool {
+    use Op::*;
+    matches!(
+        op,
+        CycleDrill
+            | CycleDrillDwell
+            | CycleBore
+            | CycleBoreDwell
+            | CycleBoreStop
+            | CyclePeck
+            | CycleChipBreak
+    )
+}
+
 /// What no moves are known for.
 pub(super) const RETURN: &str = "which plane this cycle returns to is not known: write G98 or G99 before it";
 const STRANGE: &str = "the target has no such cycle, and this one has words that no moves are known for";

@@ -174,7 +174,7 @@ pub(super) fn join(one: Option<State>, other: Option<State>) -> Option<State> {
     Some(both.collect())
 }
 
-/// True where all that is supposed of variables holds of what is known.
+/// True if everything supposed of the variables also follows from what is known of them.
 fn covers(supposed: &State, known: &State) -> bool {
     supposed.iter().all(|(name, supposed)| match (supposed, known.get(name)) {
         (Known::Number(supposed), Some(Known::Number(known))) => supposed.widened(known) == *supposed,

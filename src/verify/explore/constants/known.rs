@@ -77,8 +77,8 @@ impl Range {
         Self { low: low.max(by_sign.low), high: high.min(by_sign.high), whole_of: None }
     }
 
-    /// The range of what a control computes where the true values lie in this one: none rounds coarser than two thousandths, or
-    /// six digits.
+    /// What a control may compute where the exact value lies between these two: no control rounds by more than 0.002, or
+    /// one part in a million.
     fn rounded(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
             return Self::ANY;
