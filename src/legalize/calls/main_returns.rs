@@ -1,13 +1,15 @@
 //! Returns of programs that nothing calls.
 //!
-//! Law: M99 gives back to the caller on both controls. In a main program it starts the program again on one of them; where
-//! nobody says so of the other, a program that nothing in the library calls is for review. Counter-example: a bar feeder's
+//! Law: M99 gives back to the caller on both controls. In a main program it starts the program again on one of them; if
+//! nobody says so of the other, the library is asked once whether the programs that nothing calls are subprograms. Those
+//! numbered from 9000 are: the control's own protection of macros is for these numbers. Counter-example: a bar feeder's
 //! program, which ends in `M99` so that the next part begins.
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Callee, Module, TermKind};
 use crate::legalize::{Context, calls_of};
+use crate::syntax::ProgramName;
 use std::collections::BTreeSet;
 
 /// Reports returns that may begin a main program again.
@@ -25,18 +27,23 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         };
     }
     for (index, program) in module.programs.iter().enumerate() {
-        if program.name.as_ref().is_some_and(|name| called.contains(name)) {
+        if program.name.as_ref().is_some_and(|name| called.contains(name) || is_macro(name)) {
             continue;
         }
         let returns = |kind: &TermKind| matches!(kind, TermKind::Return { to: None });
         let Some(block) = program.blocks.iter().find(|block| returns(&block.term.kind)) else { continue };
         let title = &context.target.dialect().title;
         let what = format!(
-            "nothing in the library calls this program: if it is a main program, M99 starts it again on the source, and \
-             nobody says what it does on {title}"
+            "a program that returns, and that nothing in the library calls, is taken to be a subprogram: if it is a main \
+             program, M99 starts it again on the source, and nobody says what it does on {title}"
         );
-        let help = "write a jump to the start, or an end, in a main program";
+        let help = "write a jump to the start, or an end, in main programs";
         let finding = Diagnostic::new(Code::Conditional, block.term.site.span, what.clone()).with_help(help);
-        context.add_once(index, &what, finding);
+        context.add_once(index, &what, finding.asked_once());
     }
+}
+
+/// True for the numbers that controls keep from being edited by a parameter of their own, so that macros have them.
+fn is_macro(name: &ProgramName) -> bool {
+    matches!(name, ProgramName::Number(9000..=9999))
 }
