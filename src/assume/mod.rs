@@ -139,6 +139,11 @@ impl Predicate {
         !set && !self.is_accepted()
     }
 
+    /// True for a number that the program computes, so that a run may be more or less far from it.
+    pub fn is_computed(&self) -> bool {
+        matches!(self, Self::Subscripts(_) | Self::Codes { .. })
+    }
+
     /// True for what no run can keep or break.
     pub fn is_accepted(&self) -> bool {
         matches!(self, Self::Substitute(_) | Self::Unseen)

@@ -19,6 +19,12 @@ impl Numbers {
         self.0.iter().any(|(first, last)| (*first..=*last).contains(&number))
     }
 
+    /// How far a number is from the nearest run: 0 in one of them.
+    pub fn distance(&self, number: u32) -> f64 {
+        let far = |&(first, last): &(u32, u32)| first.saturating_sub(number).max(number.saturating_sub(last));
+        self.0.iter().map(far).min().map_or(f64::MAX, f64::from)
+    }
+
     /// The runs.
     pub fn runs(&self) -> &[(u32, u32)] {
         &self.0
@@ -59,6 +65,7 @@ mod tests {
         let safe = Numbers::new([(2001, 2199), (100, 199), (5, 4)]);
         assert_eq!(safe.runs(), [(100, 199), (2001, 2199)]);
         assert!(safe.contains(199) && !safe.contains(200) && !safe.contains(2000));
+        assert_eq!([7, 100, 210, 2300].map(|number| safe.distance(number)), [93.0, 0.0, 11.0, 101.0]);
         let subscripts = Subscripts { places: Vec::new(), safe, bases: vec![100.0] };
         let told = subscripts.telling_numbers(&[107, 300]);
         assert_eq!(told, [7.0, -1.0, 0.0, 49.0, 99.0, 100.0, 1900.0, 1901.0, 2000.0, 2099.0, 2100.0]);

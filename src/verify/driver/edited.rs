@@ -14,7 +14,7 @@ use crate::dialect::Control;
 use crate::syntax::{Expr, ExprKind, Item, ItemKind, VarRef};
 use crate::text::Span;
 use crate::verify::certificate::{Edit, Why};
-use crate::verify::explore::{Proposals, inputs, unit};
+use crate::verify::explore::{Proposals, ends_head, inputs, unit};
 use crate::verify::sides::{EditedText, Job, Side, name_of, of_target};
 use crate::verify::triage::moved;
 use std::collections::BTreeSet;
@@ -178,7 +178,7 @@ fn constants(side: &Side<'_>, program: ProgramRef, head: bool) -> Vec<Constant> 
     for block in side.text(program) {
         let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
         for item in &block.items {
-            if head && branches(item) {
+            if head && ends_head(item) {
                 return found;
             }
             for (name, value) in writes(item, side.control) {
@@ -213,11 +213,6 @@ fn writes<'t>(item: &'t Item, control: &Control) -> Vec<(Option<String>, Option<
         }
         _ => Vec::new(),
     }
-}
-
-fn branches(item: &Item) -> bool {
-    use ItemKind::*;
-    matches!(item.kind, If { .. } | Do { .. } | End { .. } | Goto(_) | Branch { .. } | Label(_))
 }
 
 fn literal(e: &Expr) -> Option<f64> {

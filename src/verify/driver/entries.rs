@@ -128,9 +128,12 @@ impl Verifier<'_, '_> {
         let all = |word: fn(&Start) -> &'static str| {
             states.iter().map(|state| word(state)).collect::<Vec<_>>().join(", ")
         };
-        let begins = match is_moved_on(self.job.source, self.job.target, states) {
-            true => ". If none is in force when it is started, give its profile a [start]",
-            false => "",
+        let begins = if is_moved_on(self.job.source, self.job.target, states) {
+            ". If none is in force when it is started, give its profile a [start]"
+        } else if states.iter().all(|state| state.is_stated()) {
+            ". Say in the source's profile what its machine begins in: [start] codes"
+        } else {
+            ""
         };
         let text = format!(
             "the source depends on {} at its start: started {}, the target does something else ({what}){begins}",

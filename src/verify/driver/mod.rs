@@ -15,6 +15,7 @@ mod run;
 mod search;
 mod settled;
 mod steered;
+mod steered_conditions;
 mod summary;
 mod trial;
 mod unit_check;

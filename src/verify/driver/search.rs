@@ -122,8 +122,9 @@ impl Verifier<'_, '_> {
             starts.retain(|start| start.scenario.steps <= ENDLESS_STEPS);
         }
         if !self.went_every_way() && !settled.is_known() {
-            self.steer(there, &found, starts);
+            starts = self.steer(there, &found, starts);
         }
+        self.steer_to_conditions(there, &found, &starts);
         self.theirs.clear();
         // Both stop alike, and what stands after that was never looked at.
         if let Some(alarm) = self.stopped.take().filter(|_| self.compared > 0 && self.telling.is_empty()) {

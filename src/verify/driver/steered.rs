@@ -34,8 +34,14 @@ impl Start {
 }
 
 impl Verifier<'_, '_> {
-    /// Looks for circumstances in which branches go the ways that they have left.
-    pub(super) fn steer(&mut self, there: ProgramRef, inputs: &Inputs, starts: Vec<Circumstances>) {
+    /// Looks for circumstances in which branches go the ways that they have left. Yields those that it began in, and those
+    /// that it came to.
+    pub(super) fn steer(
+        &mut self,
+        there: ProgramRef,
+        inputs: &Inputs,
+        starts: Vec<Circumstances>,
+    ) -> Vec<Circumstances> {
         let mut starts: Vec<Start> = starts
             .into_iter()
             .map(|mut circumstances| {
@@ -66,11 +72,11 @@ impl Verifier<'_, '_> {
                 starts.extend(came.into_iter().map(Start::new));
             }
         }
-        self.theirs.clear();
+        starts.into_iter().map(|start| start.circumstances).collect()
     }
 
     /// True once its time or its steps are used up.
-    fn is_spent(&mut self) -> bool {
+    pub(super) fn is_spent(&mut self) -> bool {
         self.steps >= self.job.effort.all_steps || self.clock.is_up()
     }
 
@@ -109,7 +115,7 @@ impl Verifier<'_, '_> {
     }
 
     /// The variables and offsets of the source that a run came to by computed numbers, where its scenario may set them.
-    fn reached(&self, run: &Run) -> Vec<Input> {
+    pub(super) fn reached(&self, run: &Run) -> Vec<Input> {
         let control = self.job.source.control;
         let Some(letter) = control.numbered() else { return Vec::new() };
         let input = |number: u32| {

@@ -6,7 +6,7 @@
 use crate::canon::{Group, Op};
 use crate::control::entry::{Drilling, Entry};
 use crate::control::{ProgramRef, Scenario};
-use crate::dialect::{CodeHead, Control};
+use crate::dialect::{CodeHead, Control, StartMode};
 use crate::syntax::{ExprKind, ItemKind, Word, for_each_item};
 use crate::verify::sides::{Job, Side, of_target};
 use std::collections::BTreeSet;
@@ -60,11 +60,13 @@ const fn reset(name: &'static str, noun: &'static str, words: &'static str) -> S
 /// The other unit; which one that is, is each side's own matter.
 pub const UNIT: Start = always("unit", "the unit in force", "in the other unit");
 
+const WORK_OFFSET: &str = "work.offset";
+
 /// All others, those that turn coordinates about last.
 const STARTS: &[Start] = &[
     Start {
         put: |entry| entry.work = Some(3),
-        ..always("work.offset", "the work offset that is selected", "in the third work offset")
+        ..always(WORK_OFFSET, "the work offset that is selected", "in the third work offset")
     },
     Start {
         put: |entry| entry.feed = Some(777.0),
@@ -164,6 +166,12 @@ impl Start {
     pub fn put(&self, scenario: &mut Scenario) {
         scenario.modes.extend(self.mode);
         (self.put)(&mut scenario.entry);
+    }
+
+    /// True for what a machine profile may say under `[start]`.
+    pub fn is_stated(&self) -> bool {
+        let group = self.mode.map(|mode| mode.group()).filter(|group| *group != Group::ReturnPlane);
+        group.is_some_and(|group| StartMode::GROUPS.contains(&group)) || self.name == WORK_OFFSET
     }
 
     /// True where both machines may start so, and either program has something to do with it.

@@ -4,9 +4,9 @@
 //! did. What a jump that was not taken says counts too: after `IF[#1LT2]GOTO9` the variable is 2 or more, and its whole
 //! part no more than itself. Jumps are followed: a place that they lead to knows what holds on each way there, round a loop too;
 //! one that a call or a return may mean knows nothing. After a code that may call something no
-//! more is known than of the locals of a program whose callee has its own. The literals at the head of a source are edited,
-//! and then other ways are gone: what they are counts only where they stand in one row with the condition; further off it
-//! counts that they are numbers.
+//! more is known than of the locals of a program whose callee has its own. The literals at the head of a main program are
+//! edited, and then other ways are gone: what they are counts only where they stand in one row with the condition; further
+//! off it counts that they are numbers.
 
 mod conditions;
 mod jumps;
@@ -30,9 +30,10 @@ const REGISTER: &str = "";
 /// How a vacant variable compares counts only where a source confirms it; or, with `as_run`, as the emulated control has
 /// it: runs on it tell by themselves where that mattered.
 pub fn impossible(side: &Side<'_>, program: ProgramRef, as_run: bool) -> BTreeSet<(Span, i64)> {
-    let mut out = read(side, program, Looks { as_run, follows: as_run, literals: true });
+    let mut out = read(side, program, Looks { as_run, follows: as_run, edited: false });
     if !as_run {
-        out.extend(read(side, program, Looks { as_run, follows: true, literals: false }));
+        let edited = !side.links().is_called(program);
+        out.extend(read(side, program, Looks { as_run, follows: true, edited }));
     }
     out
 }
@@ -43,8 +44,8 @@ struct Looks {
     as_run: bool,
     /// True if jumps are followed; else only what stands in one row counts.
     follows: bool,
-    /// False if a literal may be any number.
-    literals: bool,
+    /// True if a literal at the head may be any number.
+    edited: bool,
 }
 
 fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i64)> {
@@ -60,6 +61,7 @@ fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i
         jumps,
         known: State::new(),
         is_reached: true,
+        in_head: looks.edited,
         out: BTreeSet::new(),
     };
     for _ in 0..ROUNDS {
@@ -87,7 +89,15 @@ struct Reader<'c> {
     known: State,
     /// False where nothing comes to.
     is_reached: bool,
+    /// True as long as literals may be any number.
+    in_head: bool,
     out: BTreeSet<(Span, i64)>,
+}
+
+/// True for what ends the head of a program, whose literals its operator edits: the first branch, or what one leads to.
+pub fn ends_head(item: &Item) -> bool {
+    use ItemKind::*;
+    matches!(item.kind, If { .. } | Do { .. } | End { .. } | Goto(_) | Branch { .. } | Label(_))
 }
 
 impl Reader<'_> {
@@ -132,6 +142,7 @@ impl Reader<'_> {
 
     fn item(&mut self, item: &Item) {
         use ItemKind::*;
+        self.in_head &= !ends_head(item);
         match &item.kind {
             Assign { target, value, .. } => {
                 let value = self.value(value);
@@ -317,7 +328,7 @@ impl Reader<'_> {
             _ => Range::ANY,
         };
         match &e.kind {
-            ExprKind::Number(_) if !self.looks.literals => any,
+            ExprKind::Number(_) if self.in_head => any,
             ExprKind::Number(number) => Some(Known::Number(Range::one(number.value))),
             ExprKind::Group(inner) | ExprKind::Plus(inner) => self.value(inner),
             ExprKind::Negate(inner) => Some(Known::Number(number(inner).negated())),

@@ -13,6 +13,7 @@ mod steer;
 
 pub use alarms::compare_alarms;
 pub use branches::{Coverage, NotReached};
+pub use constants::ends_head;
 pub use inputs::{Inputs, inputs, inputs_of_both};
 pub use on_target::{asked, on_target, set_by_hand, unit};
 pub use scenarios::Proposals;

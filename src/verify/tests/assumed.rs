@@ -71,6 +71,27 @@ fn what_no_run_keeps_is_undecided() {
     assert!(has(&found, Why::NoRunKept), "{:?}", found.reasons);
 }
 
+/// Behind six questions, two numbers of one block: each is held against its own numbers alone, and the search finds an
+/// argument that makes both.
+#[test]
+fn two_numbers_of_one_block_are_searched_for_together() {
+    let block = "#31=#[130+#7]+#[500+#8]";
+    let asks: String = [24, 25, 18, 9, 2, 19]
+        .map(|number| format!("IF[#{number}EQ#0]GOTO8\nIF[#{number}LT10]GOTO8\n"))
+        .concat();
+    let source =
+        format!("O1\nG21G90\n{asks}{block}\nG0X[FIX[#31]]\nGOTO9\nN8\n#3000=1(ARGUMENTS)\nN9\nM99\n");
+    let both = |first: (u32, u32), second: (u32, u32)| {
+        let supposed = [numbers(&source, block, &[first]), numbers(&source, block, &[second])];
+        let found = one(&source, &source, &supposed);
+        let kept: Vec<bool> = found.assumptions.iter().map(|one| one.kept.unwrap() > 0).collect();
+        (kept, has(&found, Why::NoRunKept))
+    };
+    assert_eq!(both((131, 149), (501, 530)), (vec![true, true], false));
+    // No argument makes a number of both.
+    assert_eq!(both((2_000_001, 2_000_002), (501, 530)).0[0], false);
+}
+
 /// A control without mist: flood coolant instead is no reason to be undecided, if the conversion told of it.
 #[test]
 fn a_substitute_that_was_told_is_no_reason() {

@@ -70,11 +70,12 @@ fn what_is_not_the_same_literal_is_left_alone() {
 
 #[test]
 fn only_a_head_is_edited() {
-    // After a branch the constant is no operator's.
+    // After a branch the constant is no operator's: the program never goes the other way.
     let source = SOURCE.replacen("#500=1(SIDE)", "IF[#501EQ1]GOTO5\nN5 #500=1", 1);
     let target = target("X2.5").replacen("#500=1. (SIDE)", "IF [#501 EQ 1] GOTO 5\nN5 #500=1.", 1);
     let found = run("fanuc", &source, "haas", &target, &[]);
-    assert!(found.edits.is_empty() && has(&found, Why::NotReached), "{found:#?}");
+    assert!(found.edits.is_empty() && !has(&found, Why::NotReached), "{found:#?}");
+    assert_eq!(found.not_reached, [], "{found:#?}");
 }
 
 #[test]

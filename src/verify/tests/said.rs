@@ -110,3 +110,13 @@ fn a_length_that_no_start_leaves_is_no_question() {
     assert!(!asks(&begins, "M30"));
     assert!(asks(&begins, "M99"));
 }
+
+/// A program that rests on what its machine begins in says where that is to be written.
+#[test]
+fn what_a_profile_may_say_of_the_start_is_named() {
+    let (source, target) = ("N1 G0 X0.\nN2 G1 Y1. F100.\nN3 M2\n", "O1\nG17\nG90\nG0X0.\nG1Y1.F100.\nM30\n");
+    let (outcome, what) = judged([FADAL, FANUC], source, target);
+    assert_ne!(outcome, Outcome::Different, "{what}");
+    assert!(what.contains("absolute or incremental mode"), "{what}");
+    assert!(what.contains("Say in the source's profile what its machine begins in: [start] codes"), "{what}");
+}

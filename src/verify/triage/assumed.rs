@@ -4,9 +4,10 @@
 //! source breaks one is not held against it; what the target alone does otherwise is. Nothing else of a conversion is
 //! known here.
 
+use super::computed::{beside, computed, judged, numbers};
 use crate::assume::{Assumption, Predicate};
 use crate::canon::Op;
-use crate::control::trace::{Computed, Event, EventKind};
+use crate::control::trace::{Event, EventKind};
 use crate::control::{End, ProgramRef, Run};
 use crate::text::Span;
 use crate::verify::compare::Difference;
@@ -69,7 +70,10 @@ pub fn tried<'j>(job: &Job<'j>, run: &Run, other: &Run) -> Vec<Tried<'j>> {
             program,
             at,
             assumption,
-            source: on_source(&assumption.predicate, (job.source, program), run),
+            source: match &assumption.predicate {
+                Predicate::Subscripts(own) => numbers(own, &beside(all, at), (job.source, program), run),
+                predicate => on_source(predicate, (job.source, program), run),
+            },
             target: on_target(&assumption.predicate, there.map(|there| (job.target, there)), other),
             since: there.and_then(|there| since(&assumption.predicate, (job.target, there), other)),
         })
@@ -126,16 +130,8 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         | Predicate::Main
         | Predicate::Loaded(_)
         | Predicate::Setting(..) => Held::Kept,
-        Predicate::Substitute(_) | Predicate::Unseen => Held::Untried,
-        Predicate::Subscripts(subscripts) => {
-            let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
-            let name = of.0.control.numbered().unwrap_or_default();
-            judged(
-                here,
-                |number| subscripts.safe.contains(*number),
-                |n| format!("computes the variable {name}{n}"),
-            )
-        }
+        // Those of one block are looked at together.
+        Predicate::Substitute(_) | Predicate::Unseen | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, places, domain } => {
             let here = computed(&run.arguments, of, run, Some(places)).filter(|one| one.what.0 == *function);
             judged(here, |(_, arguments)| domain.contains(*arguments), call)
@@ -204,42 +200,6 @@ fn since(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> Optio
         Predicate::Codes { .. } => computed(&run.computed_codes, of, run, None).map(|one| one.before).min(),
         _ => None,
     }
-}
-
-/// What a run computed in a program, in these blocks of it or anywhere.
-fn computed<'r, T: Copy>(
-    all: &'r [Computed<T>],
-    (side, program): (&'r Side<'_>, ProgramRef),
-    run: &'r Run,
-    places: Option<&'r [Span]>,
-) -> impl Iterator<Item = Computed<T>> + 'r {
-    let holds = |block: Span, place: &Span| {
-        block.start <= place.start && place.start < block.end.max(block.start.saturating_add(1))
-    };
-    all.iter().copied().filter(move |one| {
-        let here = places.is_none_or(|places| places.iter().any(|place| holds(one.at.span, place)));
-        here && side.links().at(run, one.at.program) == Some(program)
-    })
-}
-
-/// The first that is outside; else that all were inside.
-fn judged<T>(
-    all: impl Iterator<Item = Computed<T>>,
-    inside: impl Fn(&T) -> bool,
-    words: impl Fn(&T) -> String,
-) -> Held {
-    let mut held = Held::Untried;
-    for one in all {
-        if !inside(&one.what) {
-            match &held {
-                Held::Broken { before, .. } if *before <= one.before => {}
-                _ => held = Held::Broken { before: one.before, what: words(&one.what) },
-            }
-        } else if held == Held::Untried {
-            held = Held::Kept;
-        }
-    }
-    held
 }
 
 fn call((function, [a, b]): &(crate::canon::Func, [f64; 2])) -> String {

@@ -3,10 +3,12 @@
 
 mod assumed;
 mod callers;
+mod computed;
 mod rounding;
 mod stops;
 
 pub use assumed::{Tried, excuse, facts, moved, telling_numbers, told_substitutes, tried};
 pub use callers::{Shown, Through, through, ways};
+pub use computed::off;
 pub use rounding::{ROUNDS, hangs_on_rounding};
 pub use stops::{off_its_circle, stops_by_itself};

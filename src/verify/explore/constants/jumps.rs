@@ -224,10 +224,12 @@ pub(super) fn is_plain(items: &[Item], control: &Control) -> bool {
     })
 }
 
-/// True for a block whose only code that is not plain calls a program with locals of its own.
+/// True for a block whose only code that is not plain calls a program with locals of its own, or is one that a profile
+/// describes: that one sets common variables at the most.
 pub(super) fn keeps_locals(items: &[Item], control: &Control) -> bool {
-    let is_call = |op: Op| matches!(op, Op::CallMacro | Op::CallModal | Op::CallModalEach | Op::CallModalOff);
-    is_plain(items, control) || ops(items, control).all(|op| op.is_some_and(is_call))
+    use Op::{Act, CallMacro, CallModal, CallModalEach, CallModalOff};
+    let keeps = |op: Op| matches!(op, CallMacro | CallModal | CallModalEach | CallModalOff | Act);
+    is_plain(items, control) || ops(items, control).all(|op| op.is_some_and(keeps))
 }
 
 /// Where a block goes whose code is a jump to a label (`G24 P5`); none for any other.
@@ -252,10 +254,22 @@ fn ops<'i>(items: &'i [Item], control: &'i Control) -> impl Iterator<Item = Opti
     items.iter().filter_map(move |item| {
         let ItemKind::Word(word) = &item.kind else { return None };
         match word.letter {
-            'G' | 'M' => Some(number(word).and_then(|n| control.code(word.letter, n, &[])).map(|row| row.op)),
+            'G' | 'M' => Some(number(word).and_then(|number| op_of((word.letter, number), items, control))),
             // A subroutine on some controls.
             'L' => Some(None),
             _ => None,
         }
     })
+}
+
+/// What a code means by itself, or beside the other words of its block.
+fn op_of((letter, value): (char, f64), items: &[Item], control: &Control) -> Option<Op> {
+    let beside = || {
+        let words = items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Word(word) => Some((word.letter, number(word))),
+            _ => None,
+        });
+        control.code(letter, value, &words.collect::<Vec<_>>())
+    };
+    control.code(letter, value, &[]).or_else(beside).map(|row| row.op)
 }

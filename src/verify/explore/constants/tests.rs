@@ -102,6 +102,11 @@ fn a_source_is_followed_without_its_literals() {
     // A literal at the head is edited: any number may stand there.
     let edited = "O1\n#100=6000\nG0X1.\nIF[#100GT2500]GOTO5\nG0X2.\nN5M30\n";
     assert!(never_of_source(edited).is_empty());
+    // One after a branch, or in what others call, is as it is written.
+    let switch = "O1\nIF[#1GT2]GOTO3\nG0X1.\nN3\n#31=0(1 IS ON)\nG05.1Q0\nG65P2\nG0X2.\nIF[#31EQ0]GOTO5\nG0X3.\nN5M30\n";
+    assert_eq!(never_of_source(switch), [("[#31EQ0]".to_owned(), 0)]);
+    let called = "O1\n#31=0\nG0X2.\nIF[#31EQ0]GOTO5\nG0X3.\nN5M99\nO2\nG65P1\nM30\n";
+    assert_eq!(never_of_source(called), [("[#31EQ0]".to_owned(), 0)]);
     let alarm = "O1\nIF[#1GT2]GOTO3\n#3000=1(NO)\nIF[#1GT4]GOTO3\nN3M30\n";
     assert_eq!(never_of_source(alarm).len(), 2);
     // Nothing comes to what stands after a jump, unless a call comes back to it.
