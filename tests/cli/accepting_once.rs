@@ -89,3 +89,58 @@ fn an_entry_has_a_file_and_a_place_or_neither() {
         assert!(run.err.contains("[[accepted]]") && run.err.contains("neither of them"), "{}", run.err);
     }
 }
+
+/// What a folder is asked of on the way to another control: for the library once, and of programs.
+fn asked_of(texts: &[&str], from: &str, to: &str) -> (Vec<String>, Vec<String>) {
+    let names: Vec<String> = (0..texts.len()).map(|at| format!("in/{at}.nc")).collect();
+    let files: Vec<(&str, &str)> = names.iter().map(String::as_str).zip(texts.iter().copied()).collect();
+    let shop = Shop::with(&files);
+    let run = shop.run(&format!("convert in --from {from} --to {to} --no-verify --format json --out out"));
+    let json: Value = serde_json::from_str(&run.out).unwrap();
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let library =
+        json["library"].as_array().into_iter().flatten().map(|asked| text(&asked["message"])).collect();
+    let programs = json["programs"].as_array().unwrap().iter();
+    let findings = programs.flat_map(|program| program["diagnostics"].as_array().unwrap());
+    let of_programs = findings.filter(|found| found["severity"] == "review" && found["code"] == "MG0405");
+    (library, of_programs.map(|found| text(&found["message"])).collect())
+}
+
+/// A macro has a number from 9000; any other program that returns, and that nothing calls, may be a main program.
+#[test]
+fn returns_that_nothing_calls_are_asked_about_once() {
+    let text = |number: u32| format!("O{number}\nG21 G90 G94 G17 G54\nG1 X1. F100.\nM99\n");
+    let (first, second, last) = (text(100), text(200), text(9001));
+    let (library, programs) = asked_of(&[&first, &second, &last], "fanuc", "fadal");
+    let about: Vec<_> =
+        library.iter().filter(|asked| asked.contains("nothing in the library calls")).collect();
+    assert_eq!((about.len(), &programs[..]), (1, &[][..]), "{library:?}");
+    let (library, programs) = asked_of(&[&last], "fanuc", "fadal");
+    assert!(!library.concat().contains("nothing in the library calls"), "{library:?}");
+    assert_eq!(programs, Vec::<String>::new());
+}
+
+/// On a CC100 the tool word alone brings a length.
+#[test]
+fn lengths_without_a_change_are_asked_about_once() {
+    let text = |tool: u32| {
+        format!("%\nN1 O{tool}\nN2 G90 G40 G80 G0\nN3 E1 X0 Y0\nN4 H{tool} Z1.\nN5 G1 Z-1. F20.\nN6 M2\n%\n")
+    };
+    let (library, programs) = asked_of(&[&text(1), &text(2)], "fadal", "cc100");
+    let about: Vec<_> =
+        library.iter().filter(|asked| asked.contains("takes up the length of one tool")).collect();
+    assert_eq!((about.len(), &programs[..]), (1, &[][..]), "{library:?}");
+}
+
+/// `#4014` holds 54.1 under `G54.1`, and 154 on a Haas.
+#[test]
+fn work_offsets_that_no_program_names_are_asked_about_once() {
+    let reads = "O1\nG21 G90 G94 G17 G54\n#100=#4014\nG1 X#100 F100.\nM30\n";
+    let (library, programs) = asked_of(&[reads, &reads.replace("O1", "O2")], "fanuc", "haas");
+    let about: Vec<_> = library.iter().filter(|asked| asked.contains("G54.1")).collect();
+    assert_eq!((about.len(), programs.len()), (1, 0), "{library:?} {programs:?}");
+    let names = "O2\nG21 G90 G94 G17\nG54.1 P2\nG1 X1. F100.\nM30\n";
+    let (library, programs) = asked_of(&[reads, names], "fanuc", "haas");
+    assert!(!library.concat().contains("G54.1"), "{library:?}");
+    assert!(programs.iter().any(|asked| asked.contains("G54.1")), "{programs:?}");
+}

@@ -302,11 +302,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             if !again {
                 begin(program, tool);
             }
-            let told = Diagnostic::new(
-                Code::Conditional,
-                program.site.span,
-                if again { LOADED } else { LOADED_FIRST },
-            );
+            let told = Diagnostic::new(Code::Conditional, program.site.span, LOADED);
             context.add(index, told.assuming(Predicate::Loaded(tool)).asked_once());
         }
     }
@@ -337,12 +333,9 @@ fn begin(program: &mut Program, tool: u32) {
 }
 
 /// Which tool such programs are run with is a custom of the shop: one answer for all of them.
-const LOADED: &str = "a program that takes up the length of one tool, and changes to none, gets the word of that tool before the \
-                      first move that counts the length, because on the target only the tool word brings one. Make sure that \
-                      such programs are run with the tool whose length they name";
-const LOADED_FIRST: &str = "a program that takes up the length of one tool, and changes to none, gets the word of that tool at its \
-                            head, because on the target only the tool word brings a length. Make sure that such programs are \
-                            run with the tool whose length they name";
+const LOADED: &str = "a program that takes up the length of one tool, and changes to none, gets the word of that tool before \
+                      the length counts, because on the target only the tool word brings one. Make sure that such \
+                      programs are run with the tool whose length they name";
 const NUMBERED: &str = "the number of this tool is taken to be a whole number, 1 or more: on the target tool 0 ends the length and changes to none";
 const ELSEWHERE: &str = "a return between a tool change and the block that takes up the tool's length: on the target the change \
                          brings the length. Take it up before";

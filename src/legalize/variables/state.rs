@@ -6,7 +6,7 @@
 
 mod findings;
 
-use crate::canon::{Op, Role, Sys};
+use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::{Control, Question, Row};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::features::{Feature, Features};
@@ -45,6 +45,7 @@ pub fn concerns(features: &Features) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let (source, target) = (context.source, context.target);
     let (mut timed, mut changed) = (BTreeSet::new(), Vec::new());
+    let additional = may_select_more(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         if !context.may_concern(index, concerns) {
             continue;
@@ -66,8 +67,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             write(stmt, (source, target), &mut found);
         }
-        found
-            .retain(|(span, finding)| !matches!(finding, Finding::Renumbered(_)) || !compared.contains(span));
+        found.retain(|(span, finding)| {
+            !matches!(finding, Finding::Renumbered(..)) || !compared.contains(span)
+        });
+        for (_, finding) in &mut found {
+            if let Finding::Renumbered(code, true) = finding
+                && !additional
+            {
+                *finding = Finding::NeverNamed(std::mem::take(code));
+            }
+        }
         found.into_iter().for_each(|(span, finding)| finding.report(index, span, context));
     }
     if !timed.is_empty() && target.system_run(Sys::CycleSeconds).is_none() {
@@ -75,6 +84,20 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     }
     changed
 }
+
+/// True if a program may select a work offset other than the standard six.
+fn may_select_more(module: &Module) -> bool {
+    let more = |nc: &Nc| {
+        let number = nc.word(Role::WorkOffset).map(Expr::constant);
+        number.is_some_and(|number| number.is_none_or(|number| number > STANDARD_OFFSETS))
+            || nc.items.iter().any(|item| matches!(item, NcItem::Code('G', _)))
+    };
+    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    stmts.filter_map(|stmt| stmt.kind.nc()).any(more)
+}
+
+/// G54 to G59.
+const STANDARD_OFFSETS: f64 = 6.0;
 
 fn wired(state: Sys) -> bool {
     use Sys::*;
@@ -122,7 +145,8 @@ fn read(
         let factor = settled((state, state), 1.0, (source, target), span, found);
         if let (Sys::Modal, Some(group)) = (state, subscripts.first().and_then(Expr::constant)) {
             let code = crate::legalize::codes::by_number::renumbered(group, source, target);
-            found.extend(code.map(|code| (span, Finding::Renumbered(code))));
+            let of_offsets = Group::WorkOffset.number().is_some_and(|number| f64::from(number) == group);
+            found.extend(code.map(|code| (span, Finding::Renumbered(code, of_offsets))));
         }
         return scaled(Expr::System(state, subscripts), 1.0 / factor);
     }

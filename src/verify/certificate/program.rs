@@ -108,6 +108,16 @@ pub struct Edit {
     pub value: f64,
 }
 
+impl Edit {
+    /// That the two texts differ with it.
+    pub fn differs(&self, what: &str) -> String {
+        let Self { variable, line, register, target_line, value } = self;
+        format!(
+            "with {value} for {variable} in line {line} and for {register} in line {target_line} they differ: {what}"
+        )
+    }
+}
+
 /// Where two programs differ.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Witness {

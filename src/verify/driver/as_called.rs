@@ -65,8 +65,8 @@ impl Verifier<'_, '_> {
         found.variables.iter().any(|input| is_local(&input.name))
     }
 
-    /// Takes in what runs of a caller showed.
-    fn take_in(&mut self, run: Verifier<'_, '_>) {
+    /// Takes in what runs of a caller, or of an edited text, showed.
+    pub(super) fn take_in(&mut self, run: Verifier<'_, '_>) {
         self.compared += run.compared;
         self.largest = self.largest.max(run.largest);
         self.texts.extend(run.texts);

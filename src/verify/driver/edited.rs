@@ -15,7 +15,7 @@ use crate::syntax::{Expr, ExprKind, Item, ItemKind, VarRef};
 use crate::text::Span;
 use crate::verify::certificate::{Edit, Why};
 use crate::verify::explore::{Proposals, ends_head, inputs, unit};
-use crate::verify::sides::{EditedText, Job, Side, name_of, of_target};
+use crate::verify::sides::{EditedText, Effort, Job, Side, name_of, of_target};
 use crate::verify::triage::moved;
 use std::collections::BTreeSet;
 
@@ -30,6 +30,11 @@ const TWINS: usize = 4;
 
 /// Edits for ways that the target alone has left.
 const FOR_THE_TARGET: usize = 48;
+
+/// Edited texts of which all ways are searched for, at the most, and how much each search may do.
+const SEARCHED: usize = 3;
+const SEARCH: [usize; 2] = [48, 120];
+const SEARCH_STEPS: u64 = 200_000;
 
 /// The first assignment of a variable, where it is a literal.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +58,8 @@ impl Verifier<'_, '_> {
             .flat_map(|part| constants(target, part, false).into_iter().map(move |twin| (part, twin)))
             .collect();
         let numbers = inputs(source, self.program, target).numbers;
-        let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
+        let mut left = Left { steps: self.job.effort.all_steps, searches: SEARCHED };
+        let mut for_target = FOR_THE_TARGET;
         for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
             let named = names.variable(&constant.name, source.control, target.control);
             let (is_named, alike) = (named.is_some(), |twin: &Constant| twin.value == constant.value);
@@ -72,11 +78,11 @@ impl Verifier<'_, '_> {
             };
             for value in values(constant.value, &numbers) {
                 for twin in &twins {
-                    if self.went_every_way() || steps == 0 || for_target == 0 || self.is_out_of_time() {
+                    if self.went_every_way() || left.steps == 0 || for_target == 0 || self.is_out_of_time() {
                         return;
                     }
                     for_target -= usize::from(self.coverage.is_complete());
-                    if self.edit(there, (&constant, twin), (value, is_named), &mut steps) {
+                    if self.edit(there, (&constant, twin), (value, is_named), &mut left) {
                         break;
                     }
                 }
@@ -91,7 +97,7 @@ impl Verifier<'_, '_> {
         there: ProgramRef,
         (ours, (part, theirs)): (&Constant, &(ProgramRef, Constant)),
         (value, is_named): (f64, bool),
-        steps: &mut u64,
+        left: &mut Left,
     ) -> bool {
         let Job { source, target, names, assumptions, effort, spent } = *self.job;
         let Some(text) = EditedText::new(&source.texts(), self.program, ours.span, value) else {
@@ -112,7 +118,7 @@ impl Verifier<'_, '_> {
         scenario.inch = inch;
         self.given.start(&mut scenario);
         let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
-        *steps = steps.saturating_sub(run.steps);
+        left.steps = left.steps.saturating_sub(run.steps);
         let mut coverage = self.coverage.clone();
         let new = coverage.add_moved(&run, &back(&text, self.program.file));
         if !new && self.target_coverage.is_complete() {
@@ -144,14 +150,9 @@ impl Verifier<'_, '_> {
             value,
         };
         if let Some(witness) = &pair.witness {
-            if !is_named {
-                return false;
+            if is_named {
+                self.because(Why::Edited, &edit.differs(&witness.what));
             }
-            let text = format!(
-                "with {value} for {} in line {} and for {} in line {} they differ: {}",
-                edit.variable, edit.line, edit.register, edit.target_line, witness.what
-            );
-            self.because(Why::Edited, &text);
             return false;
         }
         // What comes to no end on both sides, as a stop that is jumped back to, is compared as far as it went.
@@ -160,6 +161,21 @@ impl Verifier<'_, '_> {
         }
         self.coverage = coverage;
         self.target_coverage = target_coverage;
+        if new && left.searches > 0 && !self.went_every_way() {
+            left.searches -= 1;
+            let job = Job { effort: narrow(effort), ..job };
+            let mut wide = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
+            wide.search(there);
+            match &wide.witness {
+                Some(witness) if is_named => self.because(Why::Edited, &edit.differs(&witness.what)),
+                None if wide.compared > 0 && wide.reasons.is_empty() => {
+                    self.coverage.add_gone(&wide.coverage, &back(&text, self.program.file));
+                    self.target_coverage.add_gone(&wide.target_coverage, &back(&other, part.file));
+                    self.take_in(wide);
+                }
+                _ => {}
+            }
+        }
         self.tried += 1;
         self.compared += pair.compared;
         self.largest = self.largest.max(pair.largest);
@@ -170,6 +186,21 @@ impl Verifier<'_, '_> {
         self.edits.push(edit);
         true
     }
+}
+
+/// What edits may still do.
+struct Left {
+    /// Blocks that runs of the source may execute.
+    steps: u64,
+    /// Edited texts of which all ways may be searched for.
+    searches: usize,
+}
+
+/// The effort of a search in an edited text.
+fn narrow(effort: Effort) -> Effort {
+    let [scenarios, tries] = SEARCH;
+    let all_steps = effort.all_steps.min(SEARCH_STEPS);
+    Effort { scenarios: effort.scenarios.min(scenarios), tries: effort.tries.min(tries), all_steps, ..effort }
 }
 
 /// The variables whose first assignment in a program's text is a literal; of a head, those before anything can branch.

@@ -78,6 +78,23 @@ fn only_a_head_is_edited() {
     assert_eq!(found.not_reached, [], "{found:#?}");
 }
 
+/// Past a switch at the head stand questions about what the program finds: they are searched with the switch set.
+#[test]
+fn past_a_switch_the_search_goes_on() {
+    let text = |last: &str| {
+        format!(
+            "O1\n#1=0\nG0 X1.\nIF [#1 EQ 0] GOTO 9\nIF [#500 GT 512.5] GOTO 8\nG0 X2.\nN8\n\
+             IF [[#501 - 3 * #502] EQ 77] GOTO 9\n{last}\nN9 M30\n"
+        )
+    };
+    let found = run("fanuc", &text("G0 X4."), "haas", &text("G0 X4."), &[]);
+    assert_eq!(found.not_reached, [], "{found:#?}");
+    assert_eq!(found.outcome, Outcome::Same, "{found:#?}");
+    // What differs only there is seen: no lock names the register of a local.
+    let found = run("fanuc", &text("G0 X4."), "haas", &text("IF [#502 EQ 9] GOTO 9\nG0 X4."), &[]);
+    assert_ne!(found.outcome, Outcome::Same, "{found:#?}");
+}
+
 #[test]
 fn steps_that_a_loop_goes_by_are_tried_as_values() {
     // From 0 by .25 to the square of .5: other counts pass it by.

@@ -16,7 +16,10 @@ pub(super) enum Finding {
     Own(String, Option<String>),
     /// A variable of the target, by the name of its fact.
     Unconfirmed(Sys, String, String),
-    Renumbered(String),
+    /// Codes of a group that is read have another number there; true if it is that of work offsets.
+    Renumbered(String, bool),
+    /// The same, if no program of the library names one of them.
+    NeverNamed(String),
     Wiring,
     /// The tool in the spindle stands for the last tool word.
     ToolWord,
@@ -85,12 +88,20 @@ impl Finding {
                 };
                 context.unconfirmed(index, Side::Source, span, Question::RadiusOffsetTable.fact(), what);
             }
-            Finding::Renumbered(code) => {
+            Finding::Renumbered(code, _) => {
                 let what = format!(
                     "a modal code is read, and the number of {code} is another one on {title}: make sure that no such \
                      code is in force here, and do not compare with its number"
                 );
                 context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+            }
+            Finding::NeverNamed(code) => {
+                let what = format!(
+                    "a modal code is read, and the number of {code} is another one on {title}: no program of the library \
+                     names one, so make sure that none is in force when they begin"
+                );
+                let finding = Diagnostic::new(Code::Conditional, span, what.clone()).asked_once();
+                context.add_once(index, &what, finding);
             }
             Finding::TargetTable => {
                 let what = "a setting of the target says whether its cutter table holds radii or \
