@@ -105,9 +105,9 @@ fn m2_returns_from_a_cycle_only() {
     };
     assert_eq!(end("cycle7.nc", "G55\nM2\n"), (Some(Op::Return), false));
     assert_eq!(end("cycle7.nc", "G55\nM30\n"), (Some(Op::EndRewind), false));
-    assert_eq!(end("part.nc", "G55\nM2\n"), (Some(Op::End), true));
+    assert_eq!(end("part.nc", "G55\nM2\n"), (Some(Op::End), false));
     // In a called part too.
-    assert_eq!(end("part.nc", "G22 P1\nG0 X1\nM30\n$1\nM2\nG99\n"), (Some(Op::End), true));
+    assert_eq!(end("part.nc", "G22 P1\nG0 X1\nM30\n$1\nM2\nG99\n"), (Some(Op::End), false));
     let files: [(&str, &[u8]); 2] = [("part.nc", b"G827\nG1 X1 F100\nM30\n"), ("Cycle27b.nc", b"G91\nM2\n")];
     let run = run("cc100", &files, &given(&[]));
     ended(&run);
