@@ -112,6 +112,11 @@ impl Op {
         matches!(self, Op::TurningPass | Op::ThreadingPass | Op::FacingPass)
     }
 
+    /// True for a code that only says how the words after it count: it asks nothing of the machine by itself.
+    pub const fn only_counts(self) -> bool {
+        matches!(self.group(), Group::Distance | Group::ReturnPlane)
+    }
+
     /// True for a cycle that reads the blocks of a contour.
     pub const fn reads_contour(self) -> bool {
         matches!(self, Op::RoughTurning | Op::RoughFacing | Op::Pattern | Op::Finish)

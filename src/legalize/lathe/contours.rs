@@ -249,6 +249,12 @@ pub(super) fn contour<'p>(program: &'p Program, nc: &Nc) -> impl Iterator<Item =
     stmts.filter(move |(place, _)| inside(*place)).filter_map(|(_, stmt)| stmt.kind.nc())
 }
 
+/// Where the last block of a cycle's contour stands.
+pub(super) fn last_block(program: &Program, nc: &Nc) -> Option<(usize, usize)> {
+    let last = nc.word(Role::ContourLast)?.constant()?;
+    find(program, last as u32).ok()
+}
+
 /// The only block and statement with a sequence number.
 fn find(program: &Program, number: u32) -> Result<(usize, usize), Fault> {
     let mut all = program.blocks.iter().enumerate().flat_map(|(at, block)| {

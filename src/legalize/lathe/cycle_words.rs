@@ -5,6 +5,7 @@
 //! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
 //! otherwise.
 
+mod forms;
 mod starts;
 mod written;
 
@@ -80,6 +81,8 @@ fn each(
     (index, written, summaries): (usize, &Written, &Summaries),
     context: &mut Context<'_>,
 ) -> Found {
+    let mut found = Found::new();
+    forms::settle(program, summaries, &mut found);
     let straight = entered_straight(program);
     let loops = [Op::Threading, Op::Groove, Op::FaceGroove].iter().any(|op| context.features.op(*op));
     let vacant = if loops { vacant(program, summaries) } else { Vec::new() };
@@ -98,7 +101,7 @@ fn each(
         starts: Starts::default(),
         vacant: false,
         set_vacant: false,
-        found: Vec::new(),
+        found,
         loops: Vec::new(),
         flanks: None,
     };
@@ -248,7 +251,8 @@ impl Run<'_> {
             self.refuse(stmt.site.span, SKIPPED, "");
         }
         if rest.iter().any(moves) {
-            self.refuse(stmt.site.span, MOVES, "give the move a block of its own");
+            let (what, help) = forms::beside(kind, &rest, self.source);
+            self.refuse(stmt.site.span, &what, help);
         }
         match self.set.iter_mut().find(|set| share(self.source, set.kind, kind)) {
             Some(set) => {
@@ -298,6 +302,10 @@ impl Run<'_> {
             }
         };
         let threads = stmt.kind.nc().filter(|_| kind.cycle == Op::Threading);
+        if let Some((what, help)) = threads.and_then(|nc| forms::no_pass(nc, &all, self.source)) {
+            self.refuse(span, &what, &help);
+            return vec![stmt];
+        }
         let given = match threads.and_then(|nc| beyond(nc, &all, self.target)) {
             Some((what, help)) => Err((what.into(), help.into())),
             None => resolve(all.clone(), kind, self.target),
@@ -347,7 +355,7 @@ impl Run<'_> {
             self.refuse(span, what, help);
         }
         if let StmtKind::Nc(nc) = &mut stmt.kind {
-            let same = drop_rough(nc, self.source, self.target);
+            let same = drop_rough(nc, self.target);
             nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if kind.roles.contains(role)));
             nc.items.extend(words.into_iter().map(|(role, value)| NcItem::Word(role, value)));
             if !same {
@@ -385,7 +393,5 @@ const FINISHES_HELP: &str = "write X and Z of the start as numbers right before 
                              thread one finishing pass and an allowance for it";
 const OTHER_UNIT: &str = "a length of this cycle is in a setting, in the unit of the control, and the program names the other unit";
 const STALE: &str = "a value that this cycle takes from a block before it is computed, and what it is computed from may have changed since";
-const MOVES: &str =
-    "a move in the block that sets what the next cycle takes: no source says what the control does with it";
 const SKIPPED: &str =
     "a block skip before the block that sets what the next cycle takes: whether it counts is not known here";

@@ -1,22 +1,22 @@
 //! The pecks of a groove, or of a deep hole, whose numbers are computed, as a loop.
 //!
 //! Law: column after column is fed into, peck after peck, as the cycle does (docs/lathe.md, G2 to G8). Side conditions: the
-//! blocks before say where the cycle begins, as numbers or by variables that still hold what they held there; nothing is left at
-//! the bottom of a column; where the step between columns is computed, they lie between places that are known. A negative peck,
+//! blocks before say where the cycle begins, as numbers or by variables that still hold what they held there; where the step between columns is computed, they lie between places that are known. A negative peck,
 //! and a step of 0 or less, are an alarm, as they are of the cycle. Error bound: a peck that would end less than 0.00001 above the
 //! bottom goes to the bottom, and a step that would end so near to the last column goes there. Counter-example: a start in
 //! increments.
 
 use super::cycle_values::Values;
 use super::groove_passes::is_of_groove;
+use super::pen::Lays;
 use super::thread_loops::{counts, difference, moved, product, quotient, sum, whole};
 use super::thread_passes::{UNKNOWN, alone, rounded};
 use crate::canon::{Func, Op, Role};
 use crate::dialect::Control;
 use crate::ir::{
-    BlockId, Builder, Class, Cond, Expr, Nc, NcItem, Place, Relation, SourceInfo, Stmt, StmtKind, TermKind,
-    Var,
+    BlockId, Builder, Cond, Expr, Nc, NcItem, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
+use crate::text::Span;
 
 /// A groove whose numbers are computed; X as diameters, lengths as radii.
 #[derive(Debug)]
@@ -27,8 +27,12 @@ pub(super) struct Groove {
     peck: Expr,
     step: Expr,
     back: Expr,
+    /// How far the tool goes from the stock at the bottom of a column after the first.
+    relief: Expr,
     /// The feed.
     words: Vec<NcItem>,
+    /// The speed of the spindle.
+    speed: Option<NcItem>,
     /// The most digits that the target takes.
     digits: Option<u32>,
 }
@@ -73,6 +77,10 @@ impl Groove {
             (true, [x_length, z_length]) => (z, x, [z_length, x_length]),
             (false, lengths) => (x, z, lengths),
         };
+        let of = |wanted: Role| {
+            let is = move |item: &&NcItem| matches!(item, NcItem::Word(role, _) if *role == wanted);
+            nc.items.iter().filter(is).cloned()
+        };
         let found = Self {
             site: stmt.site.clone(),
             along: along.ok_or(UNKNOWN)?,
@@ -80,24 +88,19 @@ impl Groove {
             peck,
             step,
             back: told(Role::CutRetract).cloned().ok_or(UNKNOWN)?,
-            words: nc
-                .items
-                .iter()
-                .filter(|item| matches!(item, NcItem::Word(Role::Feed, _)))
-                .cloned()
-                .collect(),
+            relief: length(Role::GrooveRelief).unwrap_or(Expr::Number(0.0)),
+            words: of(Role::Feed).collect(),
+            speed: of(Role::Speed).next(),
             digits: target.numbers().digits,
         };
-        let plain = nc.word(Role::Speed).is_none()
-            && length(Role::GrooveRelief).is_none_or(|relief| relief.constant() == Some(0.0));
-        (plain && found.is_readable() && found.is_sound()).then_some(found).ok_or(UNKNOWN)
+        (found.is_readable() && found.is_sound()).then_some(found).ok_or(UNKNOWN)
     }
 
     /// True where none of its values is a count of increments.
     fn is_readable(&self) -> bool {
         let places = [Some(&self.along), self.across.as_ref()].into_iter().flatten();
         let places = places.flat_map(|axis| [&axis.from, &axis.end]);
-        !places.chain([&self.peck, &self.step, &self.back]).any(counts)
+        !places.chain([&self.peck, &self.step, &self.back, &self.relief]).any(counts)
     }
 
     /// True where no known number of it is an alarm, and a computed step leads somewhere.
@@ -108,7 +111,8 @@ impl Groove {
             (Some(_), Some(step)) => step > 0.0,
             (Some(across), None) => across.way().is_some_and(|way| way != 0.0),
         };
-        along && step && self.peck.constant().is_none_or(|peck| peck >= 0.0)
+        let least = |value: &Expr| value.constant().is_none_or(|value| value >= 0.0);
+        along && step && least(&self.peck) && least(&self.relief)
     }
 }
 
@@ -139,18 +143,25 @@ impl Pen<'_> {
         if !found.site.comments.is_empty() || found.site.sequence.get().is_some() {
             self.builder.push(StmtKind::Comment, found.site.clone());
         }
+        if let Some(speed) = found.speed.clone() {
+            // Not alone: a pass may be in force.
+            let items = vec![NcItem::Op(Op::Rapid), speed];
+            self.builder.push(StmtKind::Nc(Nc { items }), self.site());
+        }
         let along = self.axis(&found.along);
         let across = found.across.as_ref().map(|axis| self.axis(axis));
-        let [peck, step, back] =
-            [&found.peck, &found.step, &found.back].map(|value| self.held(value.clone()));
+        let [peck, step, back, relief] =
+            [&found.peck, &found.step, &found.back, &found.relief].map(|value| self.held(value.clone()));
         self.alarm(Relation::Less, &peck);
         self.alarm(Relation::LessEqual, &step);
-        let Some(across) = across else { return self.column(&along, &peck, &back) };
+        let Some(across) = across else { return self.column(&along, (&peck, &back), None) };
+        self.alarm(Relation::Less, &relief);
         let column = self.temp();
         self.set(column, Expr::Number(0.0));
         let (head, next, done) = (self.builder.fresh(), self.builder.fresh(), self.builder.fresh());
         self.builder.start(head);
-        self.column(&along, &peck, &back);
+        let aside = (relief.constant() != Some(0.0)).then_some((&across, column, &relief));
+        self.column(&along, (&peck, &back), aside);
         self.branch(Relation::GreaterEqual, (Expr::Var(column), across.long.clone()), [done, next], next);
         self.set(column, sum(Expr::Var(column), step));
         let (last, goes) = (self.builder.fresh(), self.builder.fresh());
@@ -164,8 +175,8 @@ impl Pen<'_> {
         self.go(Op::Rapid, &across.axis, across.axis.from.clone());
     }
 
-    /// The pecks of a column, and the way out of it.
-    fn column(&mut self, along: &Held, peck: &Expr, back: &Expr) {
+    /// The pecks of a column, the way from the stock at the side, and the way out.
+    fn column(&mut self, along: &Held, (peck, back): (&Expr, &Expr), aside: Option<(&Held, Var, &Expr)>) {
         let (axis, from) = (&along.axis, along.axis.from.clone());
         let whole = match (peck.constant(), along.long.constant()) {
             (Some(peck), long) => peck == 0.0 || long.is_some_and(|long| peck >= long - NEAR),
@@ -192,6 +203,14 @@ impl Pen<'_> {
             self.builder.start(bottom);
         }
         self.go(Op::Linear, axis, axis.end.clone());
+        if let Some((across, column, relief)) = aside {
+            // Not in the first column, which has stock on both sides (G4).
+            let (goes, out) = (self.builder.fresh(), self.builder.fresh());
+            self.branch(Relation::Equal, (Expr::Var(column), Expr::Number(0.0)), [out, goes], goes);
+            let place = self.at(across, difference(Expr::Var(column), relief.clone()));
+            self.go(Op::Rapid, &across.axis, place);
+            self.builder.start(out);
+        }
         self.go(Op::Rapid, axis, from);
     }
 
@@ -237,14 +256,8 @@ impl Pen<'_> {
         if value.constant().is_some() {
             return;
         }
-        let cond = Cond::Compare(relation, value.clone(), Expr::Number(0.0)).into();
-        let (stop, go) = (self.builder.fresh(), self.builder.fresh());
-        self.builder.end(TermKind::Branch { cond, then: stop, otherwise: go }, self.site());
-        self.builder.start(stop);
-        let alarm = StmtKind::Alarm { number: Expr::Number(1.0).into(), text: "GROOVE WITHOUT PECK".into() };
-        self.builder.push(alarm, self.site());
-        self.builder.end(TermKind::End { rewind: false }, self.site());
-        self.builder.start(go);
+        let cond = Cond::Compare(relation, value.clone(), Expr::Number(0.0));
+        self.stop_if(cond, "GROOVE WITHOUT PECK");
     }
 
     /// Ends a block with a comparison, and goes on with one of the two that follow it.
@@ -259,28 +272,19 @@ impl Pen<'_> {
         self.builder.end(TermKind::Branch { cond, then, otherwise }, self.site());
         self.builder.start(next);
     }
+}
 
-    /// A value that may be read again: a number, a variable, or a new variable with it.
-    fn held(&mut self, value: Expr) -> Expr {
-        if matches!(value, Expr::Var(_)) || value.constant().is_some() {
-            return value;
-        }
-        let temp = self.temp();
-        self.set(temp, value);
-        Expr::Var(temp)
+impl Lays for Pen<'_> {
+    fn builder(&mut self) -> &mut Builder {
+        self.builder
     }
 
-    fn temp(&mut self) -> Var {
-        *self.temps += 1;
-        Var { class: Class::Temp, number: *self.temps }
+    fn temps(&mut self) -> &mut u32 {
+        self.temps
     }
 
-    fn site(&self) -> SourceInfo {
-        SourceInfo { span: self.found.site.span, ..SourceInfo::default() }
-    }
-
-    fn set(&mut self, var: Var, value: Expr) {
-        self.builder.push(StmtKind::Assign { target: Place::Var(var), value }, self.site());
+    fn span(&self) -> Span {
+        self.found.site.span
     }
 }
 

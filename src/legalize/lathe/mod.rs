@@ -2,6 +2,7 @@
 
 pub mod bare_starts;
 pub mod contour_ends;
+pub mod contour_left;
 mod contour_modes;
 mod contour_starts;
 pub mod contour_types;
@@ -23,6 +24,7 @@ pub mod interpolations;
 pub mod lone_passes;
 pub mod modes;
 pub mod other_kind;
+mod pen;
 pub mod place;
 mod places;
 mod restarts;

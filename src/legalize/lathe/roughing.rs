@@ -112,10 +112,10 @@ const LEVELS: &str = "the target is not known to end this roughing with a pass a
 
 /// A control that always ends roughing with a pass along the contour has no words for what that pass takes: words of 0 go,
 /// as without them. False where one is not known to be 0: the levels lie nearer by it, and the last pass takes it.
-pub(super) fn drop_rough(nc: &mut Nc, source: &Control, target: &Control) -> bool {
+pub(super) fn drop_rough(nc: &mut Nc, target: &Control) -> bool {
     let is_along =
         |control: &Control| control.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
-    let along = is_along(target) && !is_along(source);
+    let along = is_along(target);
     let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return true };
     let rough = |role: Role| matches!(role, Role::RoughX | Role::RoughZ) && !takes(target, op, role);
     let mut nothing = true;

@@ -10,14 +10,15 @@ mod sums;
 
 use super::cycle_values::Values;
 use super::groove_loops::{self, Groove};
+use super::pen::Lays;
 use super::thread_passes::{RUN_OUT, UNKNOWN, alone, depths, is_of_thread, rounded, runs_out_by};
 use crate::canon::{Func, Op, Role};
 use crate::dialect::Control;
 use crate::ir::{
-    Builder, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind,
-    Var,
+    Builder, Cond, Expr, Nc, NcItem, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
+use crate::text::Span;
 use std::collections::VecDeque;
 pub(super) use sums::{counts, difference, moved, product, quotient, sum, whole};
 
@@ -311,13 +312,7 @@ impl Pen<'_> {
             1 => open.swap_remove(0),
             _ => Cond::Or(open),
         };
-        let (stop, go) = (self.builder.fresh(), self.builder.fresh());
-        self.builder.end(TermKind::Branch { cond: cond.into(), then: stop, otherwise: go }, self.site());
-        self.builder.start(stop);
-        let alarm = StmtKind::Alarm { number: Expr::Number(1.0).into(), text: "THREAD WITHOUT DEPTH".into() };
-        self.builder.push(alarm, self.site());
-        self.builder.end(TermKind::End { rewind: false }, self.site());
-        self.builder.start(go);
+        self.stop_if(cond, "THREAD WITHOUT DEPTH");
     }
 
     /// 1 or -1 by the way from one place to another.
@@ -332,25 +327,6 @@ impl Pen<'_> {
         Expr::Var(sense)
     }
 
-    /// A value that may be read again: a number, a variable, or a new variable with it.
-    fn held(&mut self, value: Expr) -> Expr {
-        if matches!(value, Expr::Var(_)) || value.constant().is_some() {
-            return value;
-        }
-        let temp = self.temp();
-        self.set(temp, value);
-        Expr::Var(temp)
-    }
-
-    fn temp(&mut self) -> Var {
-        *self.temps += 1;
-        Var { class: Class::Temp, number: *self.temps }
-    }
-
-    fn site(&self) -> SourceInfo {
-        SourceInfo { span: self.found.site.span, ..SourceInfo::default() }
-    }
-
     fn block(&mut self, mut items: Vec<NcItem>) {
         for item in &mut items {
             if let NcItem::Word(_, Expr::Number(value)) = item {
@@ -360,10 +336,6 @@ impl Pen<'_> {
         self.builder.push(StmtKind::Nc(Nc { items }), self.site());
     }
 
-    fn set(&mut self, var: Var, value: Expr) {
-        self.builder.push(StmtKind::Assign { target: Place::Var(var), value }, self.site());
-    }
-
     /// Sets a variable under a condition.
     fn set_if(&mut self, cond: Cond, var: Var, value: Expr) {
         let (then, otherwise) = (self.builder.fresh(), self.builder.fresh());
@@ -371,6 +343,20 @@ impl Pen<'_> {
         self.builder.start(then);
         self.set(var, value);
         self.builder.start(otherwise);
+    }
+}
+
+impl Lays for Pen<'_> {
+    fn builder(&mut self) -> &mut Builder {
+        self.builder
+    }
+
+    fn temps(&mut self) -> &mut u32 {
+        self.temps
+    }
+
+    fn span(&self) -> Span {
+        self.found.site.span
     }
 }
 

@@ -72,9 +72,9 @@ pub(super) fn flanks_are_open(index: usize, span: Span, context: &mut Context<'_
     context.add_once(index, FLANKS, told);
 }
 
-/// True where the target's cycle takes this angle between the flanks.
-fn has_angle(target: &Control, angle: f64) -> bool {
-    match target.behaviour(Question::ThreadAngles).map(|row| row.value.as_str()) {
+/// True where the cycle of a control takes this angle between the flanks.
+pub(super) fn has_angle(control: &Control, angle: f64) -> bool {
+    match control.behaviour(Question::ThreadAngles).map(|row| row.value.as_str()) {
         None | Some("any" | "unknown") => true,
         Some(list) => list.split('.').filter_map(|one| one.parse::<f64>().ok()).any(|one| one == angle),
     }

@@ -5,9 +5,9 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    bare_starts, contour_ends, contour_types, contours, corners, counts, cycle_words, faces, held_holes,
-    hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes, modes, roughing, run_outs,
-    steps, tap_feeds, thread_ways, threads, written_corners, x_counts, zeros,
+    bare_starts, contour_ends, contour_left, contour_types, contours, corners, counts, cycle_words, faces,
+    held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes, modes, roughing,
+    run_outs, steps, tap_feeds, thread_ways, threads, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -84,6 +84,13 @@ pub(super) const LATHE: &[Pass] = &[
     .needs(&["corners", "increments", "units"]),
     Pass::reports("zeros", "refuses increments of zeros and tables that no source explains", zeros::run)
         .when(zeros::concerns),
+    Pass::reports(
+        "contour-left",
+        "refuses a contour after which nobody knows whether places are absolute",
+        contour_left::run,
+    )
+    .when(|c, _| contour_left::concerns(c))
+    .needs(&["start", "bare-starts"]),
     Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
         .when(steps::mode_to_letters)
         .needs(&["start", "beside-moves"]),

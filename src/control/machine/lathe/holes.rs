@@ -144,6 +144,7 @@ fn hole(
         machine.rules.planes_frozen.ask(trace);
     }
     let (main, live) = (machine.spindle, cycle.op.is_live_tap());
+    let stood = cycle.op.is_tap() && main == Spindle::Stopped;
     if live {
         // The tool stands until the cycle turns it.
         machine.spindle = Spindle::Stopped;
@@ -168,8 +169,8 @@ fn hole(
             machine.rapid_to(to, trace);
         }
     }
-    if live {
-        // The spindle that turns the part is where it was.
+    if live || stood {
+        // The spindle that turns the part is where it was; one that a tap has turned by itself stands again.
         machine.spindle = main;
     }
     Ok(())

@@ -70,10 +70,10 @@ fn runs_again(machine: &Machine, command: &Command, trace: &mut Trace) -> bool {
     switches(command) && machine.rules.pass_alone.ask(trace)
 }
 
-/// True for M, S or T, or another code than a wait or one for its own block.
+/// True for M, S or T, or another code than a wait, one for its own block, and those that say how words count.
 fn switches(command: &Command) -> bool {
     let once = command.ops.iter().any(|op| op.is_for_its_block());
-    let told = command.ops.iter().any(|op| *op != Op::Dwell)
+    let told = command.ops.iter().any(|op| *op != Op::Dwell && !op.only_counts())
         || [Role::Speed, Role::Tool, Role::Turret].iter().any(|role| command.word(*role).is_some());
     told && !once
 }

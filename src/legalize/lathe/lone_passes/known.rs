@@ -168,7 +168,7 @@ pub fn runs(nc: &Nc) -> bool {
 
 /// True for M, S or T without an axis, or another code than one of motion or for its own block.
 pub fn switches_alone(nc: &Nc) -> bool {
-    let told = nc.ops().any(|op| op.group() != Group::Motion && op != Op::Dwell)
+    let told = nc.ops().any(|op| op.group() != Group::Motion && op != Op::Dwell && !op.only_counts())
         || nc.items.iter().any(|item| matches!(item, NcItem::Code('M', _)))
         || nc.word(Role::Speed).is_some()
         || nc.word(Role::Tool).is_some()

@@ -109,7 +109,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// A block without a word, or with F alone.
+    /// A block without a word, with F alone, or with codes that only say how words count.
     fn empty(&mut self, stmt: &Stmt) {
         let (index, span) = (self.index, stmt.site.span);
         self.context.rests_on_source(index, span, Question::PassEmpty);
@@ -200,11 +200,14 @@ impl Walk<'_, '_> {
     }
 }
 
-/// True for a block of nothing, of a remark, of its number, or of F alone.
+/// True for a block of nothing, of a remark, of its number, of F alone, or of codes that only say how words count.
 fn is_empty(stmt: &Stmt) -> bool {
     match &stmt.kind {
         StmtKind::Comment => true,
-        StmtKind::Nc(nc) => nc.items.iter().all(|item| role(item) == Some(Role::Feed)),
+        StmtKind::Nc(nc) => nc.items.iter().all(|item| match item {
+            NcItem::Op(op) => op.only_counts(),
+            item => role(item) == Some(Role::Feed),
+        }),
         _ => false,
     }
 }
