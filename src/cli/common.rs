@@ -92,8 +92,7 @@ pub fn controls(
         .map(|path| profile(path).map(|profile| (path, profile.unwrap_or_default())))
         .collect::<Result<_, _>>()?;
     if let Some((path, odd)) = profiles.iter().find(|(_, p)| p.dialect != from && p.dialect != to) {
-        let what = "which is neither the source nor the target";
-        return Err(complain(format!("{} is a profile for '{}', {what}", path.display(), odd.dialect)));
+        return Err(complain(of_neither(path, &odd.dialect)));
     }
     let of = |name: &str| -> Vec<&Path> {
         profiles.iter().filter(|(_, p)| p.dialect == name).map(|(path, _)| path.as_path()).collect()
@@ -103,6 +102,15 @@ pub fn controls(
     let second = targets.get(1).filter(|_| from == to);
     let target = second.or(targets.first()).copied();
     meeting(control(from, sources.first().copied().or(own))?, control(to, target)?)
+}
+
+/// What is wrong with a profile of a control that is neither the source's nor the target's.
+pub fn of_neither(path: &Path, dialect: &str) -> String {
+    format!(
+        "{} is a profile for '{dialect}', which is neither the source nor the target: name the profile of one of the two machines, \
+         or change --from or --to",
+        path.display()
+    )
 }
 
 /// A source and a target that know of each other what their profiles say of both.

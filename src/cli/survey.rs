@@ -103,10 +103,7 @@ fn profiles(arguments: &Arguments, dialects: &[&str]) -> Result<(Vec<PathBuf>, V
     for machine in &machines {
         let dialect = common::profile(machine)?.unwrap_or_default().dialect;
         if !dialects.contains(&dialect.as_str()) {
-            let file = machine.display();
-            return Err(complain(format!(
-                "{file} is a profile for '{dialect}', which is neither the source nor the target"
-            )));
+            return Err(complain(common::of_neither(machine, &dialect)));
         }
         named.push(dialect);
     }

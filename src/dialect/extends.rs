@@ -10,7 +10,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
 use std::path::{Path, PathBuf};
 
-/// How many profiles may extend one another: more are a circle.
+/// How many profiles may extend one another.
 const DEEPEST: usize = 8;
 
 /// Why a profile could not be read: what is wrong in which file, a line for each fault.
@@ -31,7 +31,7 @@ impl Profile {
     /// # Errors
     /// If a file of them cannot be read, or says something wrong.
     pub fn load(path: &Path) -> Result<Self, Unreadable> {
-        load(path, 0)
+        load(path, &mut Vec::new())
     }
 
     /// The files that it stands in: its own, and those that it extends.
@@ -97,32 +97,72 @@ impl Control {
     }
 }
 
-fn load(path: &Path, depth: usize) -> Result<Profile, Unreadable> {
+/// The text of a profile.
+fn as_text(name: &str, bytes: Vec<u8>) -> Result<String, Unreadable> {
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let byte = error.as_bytes().get(at).copied().unwrap_or_default();
+        let text = String::from_utf8_lossy(error.as_bytes().get(..at).unwrap_or_default()).into_owned() + "?";
+        let place = u32::try_from(at).unwrap_or(u32::MAX);
+        let what = format!("the byte {byte:02X} is no text in UTF-8");
+        let help = "save the file as UTF-8, or write this letter without its accent";
+        let fault = Diagnostic::new(Code::MachineProfile, Span::new(place, place), what).with_help(help);
+        Unreadable(faults_as_text(name, &text, &[fault]))
+    })
+}
+
+/// Reads a profile; `after` are those that extend it, one after the other.
+fn load(path: &Path, after: &mut Vec<PathBuf>) -> Result<Profile, Unreadable> {
     let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| Unreadable(format!("{name}: {error}\n")))?;
+    let bytes = std::fs::read(path).map_err(|error| Unreadable(format!("{name}: {error}\n")))?;
+    let text = as_text(&name, bytes)?;
     let told = |faults: &[Diagnostic]| Unreadable(faults_as_text(&name, &text, faults));
     let mut profile = Profile::read(&text).map_err(|faults| told(&faults))?;
     profile.file = Some(path.to_owned());
-    let Some(extends) = profile.extends.clone() else { return Ok(profile) };
-    let fault = |message: String, help: &str| {
-        let place = profile.place("extends").unwrap_or_default();
+    let fault = |key: &str, message: String, help: &str| {
+        let place = profile.place(key).unwrap_or_default();
         let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         let span = Span::new(offset(place.start), offset(place.end));
         told(&[Diagnostic::new(Code::MachineProfile, span, message).with_help(help)])
     };
-    if depth + 1 == DEEPEST {
-        let message = format!("{DEEPEST} profiles extend one another");
-        return Err(fault(
-            message,
-            "one of them extends itself, by way of others: take one of these lines out",
-        ));
+    if registry::find(&profile.dialect).is_none() {
+        let message = match profile.dialect.as_str() {
+            "" => "the profile does not say whose it is".to_owned(),
+            other => format!("no dialect is named '{other}'"),
+        };
+        let names: Vec<&str> = registry::all().iter().map(|entry| entry.name).collect();
+        let help = format!("write dialect = \"NAME\" with one of {}", names.join(", "));
+        return Err(fault("dialect", message, &help));
+    }
+    let Some(extends) = profile.extends.clone() else { return Ok(profile) };
+    if extends.as_os_str().is_empty() {
+        let help = "write the file's name, or take the line out";
+        return Err(fault("extends", "'extends' names no file".to_owned(), help));
     }
     let place = path.parent().unwrap_or_else(|| Path::new("")).join(&extends);
     if !place.is_file() {
-        let message = format!("there is no profile {}", place.display());
-        return Err(fault(message, "the path counts from the folder of this profile"));
+        let message = match place.is_dir() {
+            true => format!("{} is a folder, and no profile", place.display()),
+            false => format!("there is no profile {}", place.display()),
+        };
+        return Err(fault("extends", message, "the path counts from the folder of this profile"));
     }
-    let base = load(&place, depth + 1)?;
+    after.push(path.to_owned());
+    let same = |other: &PathBuf| {
+        let [one, other] = [other, &place].map(|path| path.canonicalize().ok());
+        one.is_some() && one == other
+    };
+    if let Some(first) = after.iter().position(same) {
+        let circle: Vec<String> =
+            after.iter().skip(first).chain([&place]).map(|path| path.display().to_string()).collect();
+        let message = format!("a profile extends itself: {}", circle.join(" extends "));
+        return Err(fault("extends", message, "take one of these 'extends' lines out"));
+    }
+    if after.len() == DEEPEST {
+        let message = format!("{DEEPEST} profiles extend one another");
+        return Err(fault("extends", message, "put what they have in common into fewer of them"));
+    }
+    let base = load(&place, after)?;
     if base.dialect != profile.dialect {
         let message = format!(
             "{} is a profile for '{}', this one for '{}'",
@@ -130,7 +170,7 @@ fn load(path: &Path, depth: usize) -> Result<Profile, Unreadable> {
             base.dialect,
             profile.dialect
         );
-        return Err(fault(message, "a profile extends one of its own dialect"));
+        return Err(fault("extends", message, "a profile extends one of its own dialect"));
     }
     // What is wrong there is told at its own place.
     made(base.clone())?;

@@ -52,6 +52,7 @@ mod tests;
 mod turret_word;
 mod unconfirmed;
 mod variables;
+mod wanted;
 
 pub use acts::{Acts, Ends};
 pub use check::TELLS;

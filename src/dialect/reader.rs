@@ -2,6 +2,7 @@
 //! and one fault does not hide the next.
 
 use super::origin::{KEYS, Written};
+use super::wanted::{as_toml, in_words};
 use super::{Origin, Row};
 use crate::diag::{Code, Diagnostic};
 use crate::text::{LineIndex, Span, shown};
@@ -81,7 +82,11 @@ impl Reader {
         match DeTable::parse(text) {
             Ok(document) => document.into_inner(),
             Err(error) => {
-                self.fault(error.span().unwrap_or(0..0), error.message(), "write it as TOML");
+                let place = error.span().unwrap_or(0..0);
+                let at = place.start.min(text.len());
+                let start = text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+                let line = text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or_default();
+                self.fault(place, error.message(), as_toml(error.message(), line));
                 DeTable::new()
             }
         }
@@ -115,7 +120,16 @@ impl Reader {
             Ok(value) => Some(value),
             Err(error) => {
                 let at = error.span().filter(|span| !span.is_empty()).unwrap_or(place);
-                self.fault(at, error.message(), "see dialects/README.md for what the column takes");
+                match self.code {
+                    Code::MachineProfile => {
+                        self.fault(
+                            at,
+                            in_words(error.message()),
+                            "docs/profiles.md says what a profile takes",
+                        );
+                    }
+                    _ => self.fault(at, error.message(), "see dialects/README.md for what the column takes"),
+                }
                 None
             }
         }

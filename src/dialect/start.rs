@@ -57,6 +57,11 @@ impl Control {
         &self.start
     }
 
+    /// True if the profile names what is in force when a program begins, though it be only what every machine begins in (`G49`).
+    pub fn says_start(&self) -> bool {
+        !self.start_text().trim().is_empty()
+    }
+
     /// Reads what the profile says.
     ///
     /// # Errors

@@ -97,7 +97,11 @@ fn left_out<'s>(survey: &'s Survey<'_>) -> impl Iterator<Item = Answer> + use<'s
 }
 
 fn set(profile: &mut Profile, section: &str, name: &str, value: &str) {
-    let section = if section == "parameters" { &mut profile.parameters } else { &mut profile.settings };
+    let section = match section {
+        "parameters" => &mut profile.parameters,
+        "behaviours" => &mut profile.behaviours,
+        _ => &mut profile.settings,
+    };
     section.insert(name.to_owned(), Plain::Word(value.to_owned()));
 }
 

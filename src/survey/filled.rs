@@ -50,7 +50,8 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     for setting in survey.settings.iter().filter(|setting| setting.side == side) {
         let lines = asked.entry(setting.section).or_default();
         let line = line_of(setting, control.profile());
-        if !lines.contains(&format!("{ASKS} {} = ", setting.name)) {
+        let names = [format!("{ASKS} {} = ", setting.name), format!("{ASKS} \"{}\" = ", setting.name)];
+        if !names.iter().any(|name| lines.contains(name)) {
             lines.push_str(&line);
         }
     }
@@ -133,9 +134,17 @@ fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str,
 /// A setting that programs wait for, as a line. What the profile says already is no key again.
 fn line_of(setting: &AskedSetting, said: &Profile) -> String {
     let AskedSetting { name, section, values, default, meaning, programs, places, .. } = setting;
-    let choice = Settled::choice(name, values);
+    let choice = match *section {
+        // A name with points is one key.
+        "behaviours" => Settled::choice(&format!("\"{name}\""), values),
+        _ => Settled::choice(name, values),
+    };
     let usual = default.as_ref().map_or(String::new(), |default| format!("; {default} if nobody changed it"));
-    let stated = if *section == "parameters" { &said.parameters } else { &said.settings };
+    let stated = match *section {
+        "parameters" => &said.parameters,
+        "behaviours" => &said.behaviours,
+        _ => &said.settings,
+    };
     let other = if stated.contains_key(name) { "# another value than below: " } else { "" };
     format!("{ASKS} {other}{choice} # {} ({}{usual})\n", short(&plain(meaning)), counted(*programs, places))
 }

@@ -3,7 +3,7 @@
 use super::shape::{NAMED, Places};
 use crate::assume::Predicate;
 use crate::diag::Diagnostic;
-use crate::dialect::{CODE_SYSTEM, Control, Setting, Side};
+use crate::dialect::{CODE_SYSTEM, Control, Question, Setting, Side};
 use crate::library::ProgramReport;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -80,10 +80,12 @@ pub(super) fn asked(
             Side::Target => controls[1],
         };
         let row = control.setting_row(&name);
-        let (section, short) = match name.strip_prefix("parameter.") {
-            Some(number) => ("parameters", number),
-            None => ("settings", name.trim_start_matches("setting.")),
+        let (section, short) = match (name.strip_prefix("parameter."), name.strip_prefix("behaviour.")) {
+            (Some(number), _) => ("parameters", number),
+            (None, Some(question)) => ("behaviours", question),
+            (None, None) => ("settings", name.trim_start_matches("setting.")),
         };
+        let question = Question::of_fact(&format!("behaviour:{short}")).filter(|_| section == "behaviours");
         let whole = row.map_or(1.0, Setting::whole);
         let needed = found.needed.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
         let needed: Vec<String> = needed.map(|value| value.to_string()).collect();
@@ -96,7 +98,11 @@ pub(super) fn asked(
             default: row
                 .and_then(|row| row.default.clone())
                 .filter(|_| side == Side::Source && short != CODE_SYSTEM),
-            meaning: row.map_or(String::new(), |row| row.meaning.clone()),
+            meaning: match (row, question) {
+                (Some(row), _) => row.meaning.clone(),
+                (None, Some(question)) => question.meaning().to_owned(),
+                (None, None) => String::new(),
+            },
             programs: found.programs.len(),
             places: found.places,
         }
@@ -119,7 +125,9 @@ fn named(finding: &Diagnostic) -> Option<(Side, Arc<str>, Option<f64>)> {
         return Some((Side::Source, name.split('=').next()?.into(), None));
     }
     if let Some(name) = &finding.setting_there {
-        return Some((Side::Target, name.clone(), None));
+        let (name, value) =
+            name.split_once('=').map_or((&**name, None), |(name, value)| (name, value.parse().ok()));
+        return Some((Side::Target, name.into(), value));
     }
     match finding.assumes.as_deref()? {
         Predicate::Setting(name, value) => Some((Side::Target, name.clone(), Some(*value))),

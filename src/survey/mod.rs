@@ -106,8 +106,14 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let places = Places::new(inputs);
     let shape = Shape::of(inputs, &places, &library);
     let mut start = start::asked(&places, source, &library.module);
-    let start_of_target = target
+    let mut start_of_target = target
         .map_or_else(Vec::new, |target| start::asked_of_target(&places, (source, target), &library.module));
+    if let Some(target) = target {
+        // Whoever says anything of what the machine begins in has looked at it.
+        let no_length = |of: [&Control; 2]| start::no_length(&places, of, &library.module);
+        start.extend(start.is_empty().then(|| no_length([source, target])).flatten());
+        start_of_target.extend(start_of_target.is_empty().then(|| no_length([target, source])).flatten());
+    }
     let digits =
         target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
     let mut conversion = match target {

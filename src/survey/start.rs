@@ -3,9 +3,9 @@
 use super::filled::{ASKS, TELLS, plain};
 use super::shape::{NAMED, Places};
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{CODE_SYSTEM, Control, Machine, StartMode};
+use crate::dialect::{CODE_SYSTEM, Control, Machine, Question, StartMode};
 use crate::ir::Module;
-use crate::legalize::{rests_on, rests_unwritten};
+use crate::legalize::{cancels_length, rests_on, rests_unwritten};
 use crate::library::{Input, by_other_systems, understood};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,7 +61,8 @@ pub(super) fn lines(asked: &[AskedStart], said: Option<&str>) -> String {
     for begun @ AskedStart { what, programs, places, .. } in asked {
         let programs = if *programs == 1 { "1 program".to_owned() } else { format!("{programs} programs") };
         let (codes, places) = (begun.told(), plain(&places.join(", ")));
-        let _ = writeln!(lines, "{TELLS} {what}: one of {codes} ({programs}: {places})");
+        let one_of = if begun.codes.len() > 1 { "one of " } else { "" };
+        let _ = writeln!(lines, "{TELLS} {what}: {one_of}{codes} ({programs}: {places})");
     }
     for (choice, of) in choices(asked) {
         let _ = match said {
@@ -132,6 +133,30 @@ pub(super) fn asked_of_target(
     };
     rests.iter_mut().for_each(|rests| rests.retain(|group| !told(group)));
     open(places, target, module, &rests)
+}
+
+/// That no tool length is in force when programs begin: asked of the side whose code that ends one moves the axis alone, if its profile
+/// says nothing of what it begins in.
+pub(super) fn no_length(
+    places: &Places<'_>,
+    [of, other]: [&Control; 2],
+    module: &Module,
+) -> Option<AskedStart> {
+    let moves = |control: &Control| control.is(Question::LengthMoves);
+    if !moves(of) || moves(other) || of.says_start() {
+        return None;
+    }
+    let code = of.code_for(Op::LengthOff, &BTreeMap::new())?.code.clone();
+    let programs = module.programs.iter().zip(cancels_length(module)).filter(|(_, cancels)| *cancels);
+    let programs: Vec<_> = programs.map(|(program, _)| program).collect();
+    (!programs.is_empty()).then(|| AskedStart {
+        group: Group::LengthComp,
+        what: "no tool length in force, for this code moves its axis",
+        codes: vec![code],
+        systems: Vec::new(),
+        programs: programs.len(),
+        places: programs.iter().take(NAMED).map(|one| places.at(one.file, one.site.span)).collect(),
+    })
 }
 
 fn open(

@@ -85,7 +85,10 @@ fn what_is_wrong_with_an_extended_profile_is_told_at_its_place() {
     shop.fails(&format!("{line} of-haas.toml"), &["of-haas.toml:2", "'haas'"]);
     shop.fails(&format!("{line} of-nothing.toml"), &["of-nothing.toml:2", "nowhere.toml"]);
     shop.fails(&format!("{line} of-folder.toml"), &["of-folder.toml:2"]);
-    shop.fails(&format!("{line} round.toml"), &["8 profiles extend one another"]);
+    shop.fails(
+        &format!("{line} round.toml"),
+        &["about.toml:2", "a profile extends itself", "about.toml extends", "take one of these"],
+    );
 }
 
 /// An extended profile is an input like any other.
@@ -313,5 +316,55 @@ fn the_lines_to_fill_in_are_of_their_profile() {
         let shop = Shop::with(&[("m.toml", &filled)]);
         let run = shop.run(&format!("dialects {dialect} --machine m.toml"));
         assert_eq!(run.code, 0, "{name}: {}", run.err);
+    }
+}
+
+/// A profile that is wrong says in which line and column, what is wrong, and what to do.
+#[test]
+fn each_way_to_be_wrong_is_told_at_its_place() {
+    let shop = Shop::with(&[("a.nc", CLEAN)]);
+    let cases: [(&[u8], &[&str]); 14] = [
+        (b"title = \"mill\"\n", &["p.toml:1:1", "does not say whose it is", "write dialect = "]),
+        (b"", &["p.toml:1:1", "does not say whose it is"]),
+        (b"dialect = \"siemens\"\n", &["p.toml:1:11", "no dialect is named 'siemens'", "fanuc"]),
+        (
+            b"dialect = \"fanuc\"\nunits = 5\n",
+            &["p.toml:2:9", "a text in quotes must stand here", "docs/profiles.md"],
+        ),
+        (
+            b"dialect = \"fanuc\"\nunits = \"mm\"\n",
+            &["p.toml:2:9", "'mm' is no answer here: it is \"inch\" or \"metric\""],
+        ),
+        (
+            b"dialect = \"fanuc\"\nunits = \"inch\" or \"metric\"\n",
+            &["p.toml:2:16", "of the values of a question one stays"],
+        ),
+        (
+            b"dialect = \"fanuc\"\naxes = \"XYZ\"\n",
+            &["p.toml:2:8", "a list, as [\"X\", \"Y\"] must stand here"],
+        ),
+        (
+            b"dialect = \"fanuc\"\noffsets = -5\n",
+            &["p.toml:2:11", "a whole number that is not negative", "not integer -5"],
+        ),
+        (b"dialect = \"fanuc\"\nextends = \"\"\n", &["p.toml:2:11", "'extends' names no file"]),
+        (b"dialect = \"fanuc\"\nextends = \".\"\n", &["p.toml:2:11", "is a folder"]),
+        (
+            b"dialect = \"fanuc\"\nextends = \"p.toml\"\n",
+            &["p.toml:2:11", "a profile extends itself: p.toml extends p.toml"],
+        ),
+        (b"dialect = \"fanuc\"\ntitle = \"a\"\ntitle = \"b\"\n", &["p.toml:3:1", "write each key once"]),
+        (
+            b"dialect = \"fanuc\"\ntitle = \"fr\xE4se\"\n",
+            &["p.toml:2:12", "the byte E4", "save the file as UTF-8"],
+        ),
+        (
+            b"dialect = \"fanuc\"\n[[site]]\ncode = \"M9\"\nname = \"x\"\n",
+            &["p.toml:2:1", "'text' is missing here"],
+        ),
+    ];
+    for (text, says) in cases {
+        shop.write("p.toml", text);
+        shop.fails("convert a.nc --from fanuc --to haas --machine p.toml", says);
     }
 }

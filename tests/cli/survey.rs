@@ -424,3 +424,64 @@ fn a_fact_of_another_setting_may_be_confirmed() {
     let run = shop.run("survey lib --machine f.toml --to haas");
     assert_eq!(run.code, 0, "{}", run.err);
 }
+
+/// B-63943EN-1/02 p. 1654: G49 of a Fanuc with 5006.6 of 0 moves Z by the length that was in force, and that of a Haas moves nothing.
+#[test]
+fn a_length_that_is_cancelled_at_the_head_is_asked_of_the_machine_whose_code_moves() {
+    let shop = Shop::with(&[
+        ("lib/o1.nc", "O1\nG20 G90 G17 G40 G49 G80 G94 G54\nG0 X1. Y1.\nM30\n"),
+        ("lib/o2.nc", "O2\nG20 G90 G17 G40 G80 G94 G54\nG43 H1 Z1.\nG0 X1. Y1.\nG49\nM30\n"),
+        ("haas.toml", "dialect = \"haas\"\nunits = \"inch\"\nconfirm = [\"behaviour:length.moves\"]\n"),
+        ("fanuc.toml", "dialect = \"fanuc\"\nunits = \"inch\"\n\n[parameters]\n\"5006.6\" = \"0\"\n"),
+    ]);
+    let machines = "--from haas --to fanuc --machine haas.toml --machine fanuc.toml";
+    let convert = format!("convert lib/o1.nc {machines} --out out");
+    let run = shop.run(&convert);
+    assert!(
+        run.out.contains("1 for review") && run.out.contains("write codes = \"G49\" under [start]"),
+        "{}",
+        run.out
+    );
+    // Of the two programs one names a length before it cancels it.
+    let run = shop.run(&format!("survey lib {machines} --write fanuc.toml"));
+    assert!(
+        run.out.contains("no tool length in force, for this code moves its axis (G49) 1 program: o1.nc:1"),
+        "{}",
+        run.out
+    );
+    let asked = shop.read("fanuc.toml");
+    assert!(asked.contains("#? codes = \"G49\""), "{asked}");
+    shop.write("fanuc.toml", asked.replace("#? codes", "codes").as_bytes());
+    let run = shop.run(&convert);
+    assert!(run.out.contains("1 converted"), "{}", run.out);
+    let run = shop.run(&format!("survey lib {machines}"));
+    assert!(!run.out.contains("no tool length in force"), "{}", run.out);
+}
+
+/// facts/fadal.md 6: P of G83 is how far over the last depth each peck begins; a Haas has it as a setting.
+#[test]
+fn a_clearance_of_pecks_is_asked_of_the_target_with_what_it_must_be() {
+    let shop = Shop::with(&[
+        (
+            "lib/o3.nc",
+            "N1 O3\nN2 G21 G90 G17 G40 G80 G94 E1\nN3 G0 X0 Y0 Z20.\nN4 G98 G83 X5. Y5. R0+2. Z-12. Q3. P0.5 F100.\nN5 G80\nN6 M2\n",
+        ),
+        ("fadal.toml", "dialect = \"fadal\"\nunits = \"metric\"\n"),
+        ("haas.toml", "dialect = \"haas\"\nunits = \"metric\"\n"),
+    ]);
+    let machines = "--from fadal --to haas --machine fadal.toml --machine haas.toml";
+    let run = shop.run(&format!("survey lib {machines} --write fadal.toml"));
+    assert_eq!(run.code, 0, "{}", run.err);
+    let asked = shop.read("haas.toml");
+    assert!(asked.contains("#? \"cycle.peck.clearance\" = \"0.5\" # how far over the last depth"), "{asked}");
+    shop.write("haas.toml", asked.replace("#? \"cycle", "\"cycle").as_bytes());
+    let run = shop.run(&format!("convert lib {machines} --out out"));
+    assert!(run.out.contains("1 converted"), "{}", run.out);
+    shop.write("haas.toml", shop.read("haas.toml").replace("0.5", "1").as_bytes());
+    let run = shop.run(&format!("convert lib {machines} --out out"));
+    assert!(
+        run.out.contains("P beside G83 of the source") && run.out.contains("\"cycle.peck.clearance\" = 0.5"),
+        "{}",
+        run.out
+    );
+}

@@ -8,13 +8,15 @@
 //! the letter of that dwell means something else beside the next code. Counter-example: `G82 P500 .. G83`, where the
 //! source's G83 takes no P and the target's waits half a second.
 
+use super::peck_clear;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
 use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
-use crate::legalize::{Context, ModalFacts};
+use crate::legalize::{Context, Modal, ModalFacts};
+use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// The words of a cycle but for its planes, which every cycle has.
@@ -50,9 +52,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let here = if before == Some(Op::CycleOff) { Lasting::default() } else { here };
                 let begins = begins(nc);
                 for role in untaken(nc, op, context.target) {
-                    let what = word_too_much(op, role, context);
-                    let told = Diagnostic::new(Code::NoEquivalent, span, what);
-                    context.add(index, told.with_help(TOO_MUCH_HELP));
+                    refuse(index, (nc, span), (op, role), (&state, context));
                 }
                 if !begins {
                     continue;
@@ -103,6 +103,25 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 nc.items.push(NcItem::Word(Role::CycleDwell, dwell));
             }
         }
+    }
+}
+
+/// Refuses a word that the target's code does not take, but for a clearance that the target's machine has by itself.
+fn refuse(
+    index: usize,
+    (nc, span): (&mut Nc, Span),
+    (op, role): (Op, Role),
+    (state, context): (&Modal, &mut Context<'_>),
+) {
+    let told = Diagnostic::new(Code::NoEquivalent, span, word_too_much(op, role, context));
+    let needed = if role == Role::PeckClear { peck_clear::fit(nc, state, context) } else { None };
+    match needed {
+        None => context.add(index, told.with_help(TOO_MUCH_HELP)),
+        Some(needed) if nc.word(role).is_some() => {
+            let setting = format!("behaviour.{}={needed}", Question::CyclePeckClearance);
+            context.add(index, told.with_help(peck_clear::help(needed)).lacking_there(setting));
+        }
+        Some(_) => {}
     }
 }
 

@@ -15,6 +15,7 @@ pub(in crate::legalize) mod hole_moves;
 pub(in crate::legalize) mod inherited_words;
 pub(in crate::legalize) mod lone_words;
 pub(in crate::legalize) mod missing_pecks;
+mod peck_clear;
 pub(in crate::legalize) mod pockets;
 pub(in crate::legalize) mod rigid_taps;
 pub(in crate::legalize) mod stored_places;

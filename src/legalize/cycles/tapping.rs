@@ -4,7 +4,8 @@
 //! the block has both words; feed is per minute on the target. Counter-example: under feed per turn the
 //! feed word is the lead itself. The feed that was in force is said again where the cycle ends, for the source's
 //! tap leaves it alone. Where it is not a known number, the target reads it before the tap and says that, if it can and
-//! every way to the end of the cycle came by the reading; else that is a review diagnostic.
+//! every way to the end of the cycle came by the reading; else that is a review diagnostic. A tap that is told no lead is refused: the
+//! feed that is in force was meant for something else.
 
 mod kept;
 
@@ -19,6 +20,7 @@ const STAYS: &str = "the feed of the tapping cycle stays in force after it: writ
 
 /// Gives tapping cycles a feed for their lead.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    leadless(module, context);
     if context.target.behaviour(Question::CycleTapFeed).is_some_and(|row| row.value == "lead") {
         return;
     }
@@ -57,6 +59,26 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     _ => {}
                 }
                 block.stmts.push(stmt);
+            }
+        }
+    }
+}
+
+/// Refuses taps that are told no lead on a control that takes it from them: it would be a feed that was meant for something else.
+fn leadless(module: &Module, context: &mut Context<'_>) {
+    let by_lead = |row: &str| row == "lead";
+    if !context.source.behaviour(Question::CycleTapFeed).is_some_and(|row| by_lead(&row.value)) {
+        return;
+    }
+    let what = "this tap is told no lead, so it is not known how far it goes in a turn";
+    let help = "write the lead into its block (Q); if F is its feed and S its speed, the machine has another format than its \
+                profile says";
+    for (index, program) in module.programs.iter().enumerate() {
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            if nc.ops().any(Op::is_tap) && nc.word(Role::Lead).is_none() {
+                let told = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
+                context.add(index, told.with_help(help));
             }
         }
     }

@@ -14,10 +14,12 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Machine, StartMode};
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::may_come_back;
-use crate::ir::{BlockId, Callee, Expr, Module, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{
+    Block, BlockId, Callee, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind,
+};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// True where the source's profile says what a program begins in.
 pub fn concerns(_: &Features, context: &Context<'_>) -> bool {
@@ -107,6 +109,39 @@ pub fn rests_unwritten(module: &Module) -> Vec<BTreeSet<Group>> {
     all
 }
 
+/// By program, true if nothing calls it and it may cancel a tool length that was in force before it: it comes to the code, without a
+/// word of an axis, before it names a length.
+pub fn cancels_length(module: &Module) -> Vec<bool> {
+    let called = CalledPrograms::of(module);
+    let mut all = vec![false; module.programs.len()];
+    for root in uncalled(module, &called) {
+        let bare = |kind: &StmtKind| kind.nc().is_some_and(is_bare_cancel);
+        let lengths =
+            |kind: &StmtKind| kind.nc().is_some_and(|nc| nc.ops().any(|op| op.group() == Group::LengthComp));
+        let program = &module.programs[root];
+        let is_first = |block: &Block| {
+            let first = block.stmts.iter().find(|stmt| lengths(&stmt.kind));
+            first.is_some_and(|stmt| bare(&stmt.kind))
+        };
+        // The first code of a length on the way from the head.
+        let (mut at, mut seen) = (vec![BlockId(0)], BTreeSet::new());
+        while let Some(id) = at.pop() {
+            let Some(block) = program.block(id).filter(|_| seen.insert(id)) else { continue };
+            if is_first(block) {
+                all[root] = true;
+            } else if !block.stmts.iter().any(|stmt| lengths(&stmt.kind)) {
+                at.extend(block.term.kind.successors());
+            }
+        }
+    }
+    all
+}
+
+fn is_bare_cancel(nc: &Nc) -> bool {
+    let is_axis = |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_axis());
+    nc.ops().any(|op| op == Op::LengthOff) && !nc.items.iter().any(is_axis)
+}
+
 /// Takes out what the target begins in anyway.
 pub fn drop_alike(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
@@ -183,29 +218,72 @@ fn named_first(program: &Program) -> Option<BTreeSet<Group>> {
     Some(named)
 }
 
-/// The groups that a program names on its straight way to such a statement; none if it comes to none.
+/// The groups that a program names on all ways to such a statement; none if it comes to none. An alarm ends a way.
 fn named_before(program: &Program, comes_to: impl Fn(&StmtKind) -> bool) -> Option<BTreeSet<Group>> {
-    let mut named = BTreeSet::new();
-    let (mut at, mut seen) = (BlockId(0), BTreeSet::new());
-    while seen.insert(at) {
-        let block = program.block(at)?;
-        for stmt in &block.stmts {
-            if let StmtKind::Nc(nc) = &stmt.kind {
-                // A block that may be skipped may name nothing.
-                let sure = stmt.site.skip.is_none();
-                named.extend(nc.ops().filter(|op| sure && op.group() != Group::OneShot).map(Op::group));
+    // What is named on all ways to a block that come to no such statement before.
+    let mut at_heads = BTreeMap::from([(BlockId(0), BTreeSet::new())]);
+    let mut open = vec![BlockId(0)];
+    while let Some(id) = open.pop() {
+        let Some(block) = program.block(id) else { continue };
+        let Way::On(named) = way(block, at_heads[&id].clone(), &comes_to) else { continue };
+        for next in block.term.kind.successors() {
+            let met: BTreeSet<Group> = match at_heads.get(&next) {
+                Some(known) => known.intersection(&named).copied().collect(),
+                None => named.clone(),
+            };
+            if at_heads.get(&next) != Some(&met) {
+                at_heads.insert(next, met);
+                open.push(next);
             }
-            if comes_to(&stmt.kind) {
-                return Some(named);
-            }
-        }
-        match &block.term.kind {
-            TermKind::Jump(to) => at = *to,
-            TermKind::End { .. } | TermKind::Stray => return None,
-            _ => return Some(named),
         }
     }
-    Some(named)
+    let uses =
+        at_heads.into_iter().filter_map(|(id, named)| match way(program.block(id)?, named, &comes_to) {
+            Way::Uses(named) => Some(named),
+            Way::On(_) | Way::Ends => None,
+        });
+    uses.reduce(|one, other| one.intersection(&other).copied().collect())
+}
+
+/// Where a way through a block comes to, with the groups that are named by then.
+enum Way {
+    /// To a use of modes, or to what may be one.
+    Uses(BTreeSet<Group>),
+    /// To the blocks after it.
+    On(BTreeSet<Group>),
+    /// To the end of the run.
+    Ends,
+}
+
+fn way(block: &Block, mut named: BTreeSet<Group>, comes_to: impl Fn(&StmtKind) -> bool) -> Way {
+    for stmt in &block.stmts {
+        if let StmtKind::Nc(nc) = &stmt.kind {
+            // A block that may be skipped may name nothing.
+            let sure = stmt.site.skip.is_none();
+            named.extend(nc.ops().filter(|op| sure && op.group() != Group::OneShot).map(Op::group));
+        }
+        if matches!(stmt.kind, StmtKind::Alarm { .. }) {
+            return Way::Ends;
+        }
+        if comes_to(&stmt.kind) {
+            return Way::Uses(named);
+        }
+    }
+    match &block.term.kind {
+        TermKind::Jump(_) => Way::On(named),
+        TermKind::Branch { cond, .. } => {
+            let mut reads = false;
+            cond.exprs(&mut |e| e.walk(&mut |part| reads |= is_read(part)));
+            if reads { Way::Uses(named) } else { Way::On(named) }
+        }
+        TermKind::End { .. } | TermKind::Stray => Way::Ends,
+        _ => Way::Uses(named),
+    }
+}
+
+/// True for what may read a mode.
+const fn is_read(part: &Expr) -> bool {
+    matches!(part, Expr::System(..) | Expr::Indirect(..))
 }
 
 /// True for a statement in which modes count.
@@ -220,9 +298,7 @@ fn uses(kind: &StmtKind) -> bool {
         }),
         kind => {
             let mut reads = !matches!(kind, StmtKind::Assign { .. });
-            kind.exprs(&mut |e| {
-                e.walk(&mut |part| reads |= matches!(part, Expr::System(..) | Expr::Indirect(..)))
-            });
+            kind.exprs(&mut |e| e.walk(&mut |part| reads |= is_read(part)));
             reads
         }
     }

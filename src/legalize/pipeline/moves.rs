@@ -159,7 +159,8 @@ pub(super) const MOVES: &[Pass] = &[
     .when(rigid_taps::concerns),
     Pass::edits("turn-feeds", "taps in feed per turn feed per minute", turn_feeds::run)
         .when(|c, context| is_mill(context) && turn_feeds::concerns(c, context)),
-    Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),
+    Pass::rewrites("tapping", "taps by lead get a feed", tapping::run)
+        .when(|c, _| c.role(Role::Lead) || c.any_op(Op::is_tap)),
     Pass::rewrites("tap-leads", "taps by feed get a lead", tap_leads::run).when(tap_leads::concerns),
     Pass::rewrites("reference", "returns to the reference position name their axes", reference::run)
         .when(|c, _| c.op(Op::ReferenceReturn)),

@@ -15,7 +15,7 @@ use crate::verify::certificate::Why;
 use crate::verify::compare::{Difference, compare, is_cut, lacks};
 use crate::verify::entry::{Start, UNIT, starts};
 use crate::verify::sides::{Side, SymbolMap};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Blocks from which on a run is a long one: what each state does alone is then looked at only as far as all together
 /// differ.
@@ -99,7 +99,8 @@ impl Verifier<'_, '_> {
                         let (noun, words) = (state.noun, state.words);
                         let text = format!(
                             "the target depends on {noun} at its start: started {words}, it does something else than the source \
-                             ({what}). If none is in force when it is started, give its profile a [start]"
+                             ({what}){}",
+                            none_in_force(self.job.target)
                         );
                         self.because(Why::EntryState, &text);
                         settled.insert(state.name);
@@ -129,11 +130,11 @@ impl Verifier<'_, '_> {
             states.iter().map(|state| word(state)).collect::<Vec<_>>().join(", ")
         };
         let begins = if is_moved_on(self.job.source, self.job.target, states) {
-            ". If none is in force when it is started, give its profile a [start]"
+            none_in_force(self.job.source)
         } else if states.iter().all(|state| state.is_stated()) {
-            ". Say in the source's profile what its machine begins in: [start] codes"
+            ". Say in the source's profile what its machine begins in: [start] codes".to_owned()
         } else {
-            ""
+            String::new()
         };
         let text = format!(
             "the source depends on {} at its start: started {}, the target does something else ({what}){begins}",
@@ -187,18 +188,15 @@ impl Verifier<'_, '_> {
             Err(Some(difference)) if self.rests_on_start(scenario, &run, difference.source) => {
                 let resets = states.iter().all(|state| state.resets || state.ends && !self.returns);
                 let [source, target] = [self.job.source, target];
-                let begins = is_moved_on(source, target, states)
-                    && !source.control.start().is_empty()
-                    && !self.returns;
+                let begins =
+                    is_moved_on(source, target, states) && source.control.says_start() && !self.returns;
                 match begins || resets && self.target_rests(scenario, &other, there) {
                     true => Found::Granted,
                     false => Found::Rests(difference.what),
                 }
             }
             // What a machine begins in leaves no tool length in force.
-            Err(Some(_))
-                if is_moved_on(target, self.job.source, states) && !target.control.start().is_empty() =>
-            {
+            Err(Some(_)) if is_moved_on(target, self.job.source, states) && target.control.says_start() => {
                 Found::Granted
             }
             Err(Some(difference)) if is_moved_on(target, self.job.source, states) => {
@@ -273,6 +271,12 @@ impl Verifier<'_, '_> {
 fn is_moved_on(side: &Side<'_>, other: &Side<'_>, states: &[&Start]) -> bool {
     let moves = |side: &Side<'_>| side.control.is(Question::LengthMoves);
     states.iter().all(|state| state.name == "length") && moves(side) && !moves(other)
+}
+
+/// What its profile says if no tool length is in force when programs begin.
+fn none_in_force(side: &Side<'_>) -> String {
+    let code = side.control.code_for(Op::LengthOff, &BTreeMap::new()).map_or("G49", |row| &row.code);
+    format!(". If none is in force when it is started, write codes = \"{code}\" under [start] of its profile")
 }
 
 /// True where the control stopped the program, so that it says nothing of what comes after.

@@ -103,3 +103,12 @@ fn steps_that_a_loop_goes_by_are_tried_as_values() {
     let found = run("fanuc", source, "haas", target, &[]);
     assert!(!has(&found, Why::NotReached), "{found:#?}");
 }
+
+/// An operator's list of numbers is long: the last of twenty decides, and is tried before those that no condition names.
+#[test]
+fn of_many_constants_those_that_conditions_name_are_edited() {
+    let many: String = (501..520).map(|number| format!("#{number}={number}.\n")).collect();
+    let with = |text: &str| text.replacen("O1\n", &format!("O1\n{many}"), 1);
+    let found = run("fanuc", &with(SOURCE), "haas", &with(&target("X2.5")), &[]);
+    assert!(!has(&found, Why::NotReached) && !has(&found, Why::Edited), "{found:#?}");
+}

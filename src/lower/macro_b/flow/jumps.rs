@@ -128,7 +128,10 @@ impl<'a> Lowering<'a> {
         match (self.findings.behaviour(Question::ThenWords, span), words) {
             (Some("true"), _) => {}
             (Some(_), true) => {
-                self.findings.not_understood(span, "THEN takes one macro statement, not words");
+                let takes =
+                    if then { "THEN takes one macro statement" } else { "a condition takes GOTO or THEN" };
+                let what = format!("{takes}, and no G or M words: jump past a block of its own for them");
+                self.findings.not_understood(span, what);
             }
             (None, true) => self.unknown_behaviour(Question::ThenWords, span),
             (_, false) if !then => {
