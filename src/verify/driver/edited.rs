@@ -11,7 +11,7 @@ use super::summary::lacks_locals;
 use super::verifier::Verifier;
 use crate::control::ProgramRef;
 use crate::dialect::Control;
-use crate::syntax::{Expr, ExprKind, Item, ItemKind, VarRef, for_each_expr};
+use crate::syntax::{Expr, ExprKind, Item, ItemKind, VarRef};
 use crate::text::Span;
 use crate::verify::certificate::{Edit, Why};
 use crate::verify::explore::{Proposals, ends_head, inputs, unit};
@@ -222,22 +222,6 @@ fn constants(side: &Side<'_>, program: ProgramRef, head: bool) -> Vec<Constant> 
                     found.push(Constant { name, value: number, span: value.span });
                 }
             }
-        }
-    }
-    found
-}
-
-/// The variables that blocks with a condition read.
-fn compared(side: &Side<'_>, program: ProgramRef) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
-    for block in side.text(program) {
-        let decides = |item: &Item| matches!(item.kind, ItemKind::If { .. } | ItemKind::Do { .. });
-        if block.items.iter().any(decides) {
-            for_each_expr(&block.items, &mut |part| {
-                if let ExprKind::Variable(variable) = &part.kind {
-                    found.extend(name_of(variable, side.control));
-                }
-            });
         }
     }
     found

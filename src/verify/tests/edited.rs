@@ -104,9 +104,9 @@ fn steps_that_a_loop_goes_by_are_tried_as_values() {
     assert!(!has(&found, Why::NotReached), "{found:#?}");
 }
 
-/// An operator's list of numbers is long: the last of twenty decides, and is tried before those that no condition names.
+/// An operator's list of numbers may be long: here the last of twenty decides.
 #[test]
-fn of_many_constants_those_that_conditions_name_are_edited() {
+fn the_last_of_many_constants_is_edited_too() {
     let many: String = (501..520).map(|number| format!("#{number}={number}.\n")).collect();
     let with = |text: &str| text.replacen("O1\n", &format!("O1\n{many}"), 1);
     let found = run("fanuc", &with(SOURCE), "haas", &with(&target("X2.5")), &[]);
