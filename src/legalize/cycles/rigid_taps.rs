@@ -1,8 +1,7 @@
 //! Rigid taps: by a code of their own on one control, always on another.
 //!
 //! Law: a code before a tap that makes it rigid goes where all taps of the target are rigid, and its speed stays; it is
-//! written before each tap where the target's taps are rigid only by it. A cycle of its own for rigid taps becomes that of all taps
-//! where these are always rigid. For a lathe it is written wherever they are not known to be
+//! written before each tap where the target's taps are rigid only by it. For a lathe it is written wherever they are not known to be
 //! rigid always, as it does no harm there; live tools get it where their cycle is written. Side conditions: the tap is the next thing
 //! that moves, and nothing turns the spindle between; the spindle does not turn to the left before a right-hand tap; S is a speed of
 //! turns.
@@ -25,9 +24,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     if context.target.machine() == Machine::Lathe {
         return taps && by_code(context.target);
     }
-    is_plain(context.target) && features.op(Op::CycleTapRigid)
-        || taps && !always(context.target)
-        || features.op(Op::RigidTaps)
+    taps && !always(context.target) || features.op(Op::RigidTaps)
 }
 
 /// True for a tap that this pass writes the code for: the taps of live tools get theirs with their cycle.
@@ -46,30 +43,8 @@ fn by_code(control: &Control) -> bool {
     wanted && control.code_for(Op::RigidTaps, &BTreeMap::new()).is_some()
 }
 
-/// True where the cycle of all taps is that of the rigid ones.
-fn is_plain(target: &Control) -> bool {
-    always(target) && target.code_for(Op::CycleTapRigid, &BTreeMap::new()).is_none()
-}
-
-/// Writes the cycle of all taps for that of rigid ones.
-fn plain_cycles(module: &mut Module) -> bool {
-    let mut changed = false;
-    let stmts = module.programs.iter_mut().flat_map(|p| &mut p.blocks).flat_map(|b| &mut b.stmts);
-    for stmt in stmts {
-        let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-        for item in &mut nc.items {
-            if *item == NcItem::Op(Op::CycleTapRigid) {
-                *item = NcItem::Op(Op::CycleTap);
-                changed = true;
-            }
-        }
-    }
-    changed
-}
-
 /// Takes the code away, or writes it.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let plain = is_plain(context.target) && plain_cycles(module);
     let facts = context.modal_facts(module);
     let speeds = OverCalls::of(module, &Speeds);
     let keeps = context.target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some();
@@ -120,7 +95,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
         }
     }
-    changed || plain
+    changed
 }
 
 type Told = (&'static str, &'static str);
