@@ -275,8 +275,13 @@ fn is_moved_on(side: &Side<'_>, other: &Side<'_>, states: &[&Start]) -> bool {
 
 /// What its profile says if no tool length is in force when programs begin.
 fn none_in_force(side: &Side<'_>) -> String {
-    let code = side.control.code_for(Op::LengthOff, &BTreeMap::new()).map_or("G49", |row| &row.code);
-    format!(". If none is in force when it is started, write codes = \"{code}\" under [start] of its profile")
+    let code = side.control.code_for(Op::LengthOff, &BTreeMap::new());
+    let told = |code: &str| {
+        format!(
+            ". If none is in force when it is started, write codes = \"{code}\" under [start] of its profile"
+        )
+    };
+    code.map_or_else(String::new, |row| told(&row.code))
 }
 
 /// True where the control stopped the program, so that it says nothing of what comes after.
