@@ -7,7 +7,7 @@ pub(super) fn in_words(message: &str) -> String {
         return format!("'{}' is no answer here: it is {}", quoted(found), listed(wanted));
     }
     if let Some((found, wanted)) = message.strip_prefix("unknown field ").and_then(expected) {
-        return format!("unknown key '{}': known here are {}", quoted(found), listed(wanted));
+        return format!("unknown key '{}': this takes {}", quoted(found), listed(wanted));
     }
     if let Some(name) = message.strip_prefix("missing field ") {
         return format!("'{}' is missing here", quoted(name));
@@ -80,7 +80,7 @@ mod tests {
             ("unknown variant `drop`, expected `omit`", "'drop' is no answer here: it is \"omit\""),
             (
                 "unknown field `nam`, expected `code` or `name`",
-                "unknown key 'nam': known here are \"code\" or \"name\"",
+                "unknown key 'nam': this takes \"code\" or \"name\"",
             ),
             ("missing field `text`", "'text' is missing here"),
             (

@@ -85,7 +85,7 @@ pub(super) fn asked(
             (None, Some(question)) => ("behaviours", question),
             (None, None) => ("settings", name.trim_start_matches("setting.")),
         };
-        let question = Question::of_fact(&format!("behaviour:{short}")).filter(|_| section == "behaviours");
+        let question = Question::find(short).filter(|_| section == "behaviours");
         let whole = row.map_or(1.0, Setting::whole);
         let needed = found.needed.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
         let needed: Vec<String> = needed.map(|value| value.to_string()).collect();

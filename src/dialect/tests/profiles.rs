@@ -242,7 +242,7 @@ fn a_machine_begins_in_what_its_profile_says() {
     );
     wrong(
         "dialect = \"fanuc\"\n[start]\ncode = \"G20\"",
-        "p.toml:3:1: MG0203: unknown field `code`, expected `codes`",
+        "p.toml:3:1: MG0203: unknown key 'code': this takes \"codes\"",
     );
 }
 

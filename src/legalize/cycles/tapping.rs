@@ -21,6 +21,9 @@ const STAYS: &str = "the feed of the tapping cycle stays in force after it: writ
 /// Gives tapping cycles a feed for their lead.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     leadless(module, context);
+    if !context.features.role(Role::Lead) {
+        return;
+    }
     if context.target.behaviour(Question::CycleTapFeed).is_some_and(|row| row.value == "lead") {
         return;
     }
