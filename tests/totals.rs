@@ -10,7 +10,6 @@ use macroglot::dialect::{Control, registry};
 use macroglot::library::{Found, Lock, Options, convert, gather};
 use macroglot::syntax::{parse_file, parse_totals};
 use macroglot::verify::Outcome as Verdict;
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use support::root;
@@ -221,9 +220,7 @@ fn all_rounds() -> Vec<rounds::Round> {
         let inputs = gather(&[root().join("corpus").join(from)], &[]).programs;
         rounds::round(from, to, &inputs)
     };
-    let mills: Vec<_> = ways.into_iter().filter(|(from, to)| from != to).collect();
-    // Most steps of a round have one thing to do at a time.
-    mills.into_par_iter().map(round).chain(rounds::turning()).collect()
+    ways.into_iter().filter(|(from, to)| from != to).map(round).chain(rounds::turning()).collect()
 }
 
 fn there_and_back(out: &mut String, pairs: &[Pair], mut rounds: Vec<rounds::Round>) {

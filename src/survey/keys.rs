@@ -89,12 +89,17 @@ pub(super) fn asked(
         let whole = row.map_or(1.0, Setting::whole);
         let needed = found.needed.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
         let needed: Vec<String> = needed.map(|value| value.to_string()).collect();
+        let values = if needed.is_empty() { values(row, short) } else { needed };
+        // A length that a setting gives is small beside those of a part. Parameters are whole numbers.
+        let gives = row.and_then(|row| row.gives).filter(|role| section == "settings" && role.is_length());
+        let is_open = values.is_empty() && row.is_none_or(|row| row.default.is_none());
+        let small = gives.filter(|_| is_open).map(|_| "0.01".to_owned());
         AskedSetting {
             side,
             section,
             name: short.to_owned(),
-            values: if needed.is_empty() { values(row, short) } else { needed },
-            likely: found.likely,
+            values,
+            likely: found.likely.or(small),
             default: row
                 .and_then(|row| row.default.clone())
                 .filter(|_| side == Side::Source && short != CODE_SYSTEM),

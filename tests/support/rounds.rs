@@ -8,7 +8,6 @@ use macroglot::library::{
 };
 use macroglot::syntax::{ParsedFile, parse_file};
 use macroglot::verify::{Effort, Side};
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -95,7 +94,7 @@ pub fn turning() -> Vec<Round> {
     ];
     let home = control(home.clone());
     let round = |(to, away): (&str, Control)| between(("fanuc lathe", to), &home, &away, &inputs);
-    ways.into_par_iter().map(round).collect()
+    ways.into_iter().map(round).collect()
 }
 
 fn between((from, to): (&str, &str), home: &Control, away: &Control, inputs: &[Input]) -> Round {
