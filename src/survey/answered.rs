@@ -136,6 +136,9 @@ fn facts(questions: &Questions<'_>, control: &Control, other: &Control, chosen: 
     let is_it = |of: &Control| of.name() == control.name() && of.profile().file == control.profile().file;
     let machines = questions.machines.iter().filter(|machine| is_it(machine.control));
     let settled = machines.flat_map(|machine| &machine.facts).map(|fact| fact.settled_by.clone());
+    // What a limit is, a shop tries: its machine takes what its programs have, or its profile says how much it takes.
+    let tried = |settled: &Settled| matches!(settled, Settled::Confirmed(fact) if fact.starts_with("limit:"));
+    let settled = settled.filter(|settled| !tried(settled));
     let wanted = settled.filter(|settled| chosen || matches!(settled, Settled::Confirmed(_)));
     wanted.filter_map(|settled| answer(settled, other)).collect()
 }

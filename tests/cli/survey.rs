@@ -485,3 +485,13 @@ fn a_clearance_of_pecks_is_asked_of_the_target_with_what_it_must_be() {
         run.out
     );
 }
+
+/// No source says how many digits a number of a CC100 may have: a shop tries it, so that nothing is refused for its answer.
+#[test]
+fn a_limit_that_a_shop_tries_refuses_nothing_in_the_outlook() {
+    let text = "%\nN1 O1\nN2 G90 G40 G80 G0\nN3 X123.4567 Y0 E1\nN4 G1 X1. F20.\nN5 M2\n%\n";
+    let shop = Shop::with(&[("lib/a.nc", text)]);
+    let survey = json(&shop, "survey lib --from fadal --to cc100 --format json");
+    assert_eq!((&survey["now"]["refused"], &survey["answered"]["refused"]), (&0.into(), &0.into()));
+    assert!(survey.to_string().contains("limit:number.digits"), "{survey}");
+}

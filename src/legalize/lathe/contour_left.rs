@@ -1,7 +1,7 @@
 //! Whether places are absolute or steps after a cycle whose contour says it otherwise.
 //!
-//! Law: none. Where the contour ends in the other mode, no source says which of the two is in force after the cycle: the control ran the blocks, or
-//! only read them. Counter-example: a contour under G91 whose last block has G90.
+//! Law: none. Where the contour ends in the other mode, no source says which of the two is in force after the cycle: the
+//! control ran the blocks, or only read them. Counter-example: a contour under G91 whose last block has G90.
 
 use super::contours::{contour, last_block};
 use crate::canon::{Group, Op};
@@ -52,5 +52,6 @@ fn next(program: &Program, (block, at): (usize, usize)) -> Option<&Nc> {
     rest.chain(blocks).find_map(|stmt: &Stmt| stmt.kind.nc())
 }
 
-const OPEN: &str = "the contour of this cycle ends with steps (G91) or places (G90), and the other was in force before: which counts after the cycle is not known";
+const OPEN: &str = "the contour of this cycle ends with steps (G91) or places (G90), and the other was in force before: \
+                    which counts after the cycle is not known";
 const HELP: &str = "write G90 or G91 into the last block of the contour, or into the block after the cycle";

@@ -1,7 +1,8 @@
 //! The pecks of a groove, or of a deep hole, whose numbers are computed, as a loop.
 //!
 //! Law: column after column is fed into, peck after peck, as the cycle does (docs/lathe.md, G2 to G8). Side conditions: the
-//! blocks before say where the cycle begins, as numbers or by variables that still hold what they held there; where the step between columns is computed, they lie between places that are known. A negative peck,
+//! blocks before say where the cycle begins, as numbers or by variables that still hold what they held there; where the step
+//! between columns is computed, they lie between places that are known. A negative peck,
 //! and a step of 0 or less, are an alarm, as they are of the cycle. Error bound: a peck that would end less than 0.00001 above the
 //! bottom goes to the bottom, and a step that would end so near to the last column goes there. Counter-example: a start in
 //! increments.

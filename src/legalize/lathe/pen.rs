@@ -1,7 +1,7 @@
 //! What lays down the loops that take the place of a lathe's cycles.
 //!
-//! Law: a value that is read again is worked out once. Side condition: its temporary is new in the program. Counter-example: none; this only lays
-//! down what thread_loops.rs and groove_loops.rs say.
+//! Law: a value that is read again is worked out once. Side condition: its temporary is new in the program.
+//! Counter-example: none; this only lays down what thread_loops.rs and groove_loops.rs say.
 
 use crate::ir::{Builder, Class, Cond, Expr, Place, SourceInfo, StmtKind, TermKind, Var};
 use crate::text::Span;

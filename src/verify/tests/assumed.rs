@@ -71,7 +71,7 @@ fn what_no_run_keeps_is_undecided() {
     assert!(has(&found, Why::NoRunKept), "{:?}", found.reasons);
 }
 
-/// Behind six questions, two numbers of one block: each is held against its own numbers alone, and the search finds an
+/// After six questions, two numbers of one block: each is held against its own numbers alone, and the search finds an
 /// argument that makes both.
 #[test]
 fn two_numbers_of_one_block_are_searched_for_together() {

@@ -62,7 +62,8 @@ pub(super) fn no_pass(nc: &Nc, values: &Values, source: &Control) -> Option<(Str
     let left = constant(values, Role::ThreadAllowance)?;
     (height > 0.0 && left >= height).then(|| {
         let what = format!(
-            "this thread is {height} high, and {left} of it are to be left for its last pass: nothing is left for the passes before, and the control stops here with an alarm"
+            "this thread is {height} high, and {left} of it are to be left for its last pass: nothing is left for the \
+             passes before, and the control stops here with an alarm"
         );
         (what, NO_PASS_HELP.into())
     })
@@ -84,7 +85,8 @@ pub(super) fn beside(kind: &Kind, rest: &[NcItem], source: &Control) -> (String,
         {
             (
                 format!(
-                    "the depth of a pass is {letter} in the first block of {}, and this block has the word of the other axis: no source says what the control does with it",
+                    "the depth of a pass is {letter} in the first block of {}, and this block has the word of the other \
+                     axis: no source says what the control does with it",
                     code.code
                 ),
                 "write the depth with that letter",
