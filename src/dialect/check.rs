@@ -171,6 +171,7 @@ pub const LIMITS: &[&str] = &[
     "number.digits",
     "block.length",
     "rotary.turn",
+    "program.main",
 ];
 
 fn names(reader: &mut Reader, tables: &Tables) {

@@ -109,7 +109,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let mut start_of_target = target
         .map_or_else(Vec::new, |target| start::asked_of_target(&places, (source, target), &library.module));
     if let Some(target) = target {
-        // Whoever says anything of what the machine begins in has looked at it.
+        // A profile that says anything of the start is taken to say all of it.
         let no_length = |of: [&Control; 2]| start::no_length(&places, of, &library.module);
         start.extend(start.is_empty().then(|| no_length([source, target])).flatten());
         start_of_target.extend(start_of_target.is_empty().then(|| no_length([target, source])).flatten());

@@ -135,8 +135,8 @@ pub(super) fn asked_of_target(
     open(places, target, module, &rests)
 }
 
-/// That no tool length is in force when programs begin: asked of the side whose code that ends one moves the axis alone, if its profile
-/// says nothing of what it begins in.
+/// That no tool length is in force when programs begin. It is asked of the machine whose code that ends a length moves the
+/// axis, where that of the other does not; not if its profile has a `[start]`.
 pub(super) fn no_length(
     places: &Places<'_>,
     [of, other]: [&Control; 2],

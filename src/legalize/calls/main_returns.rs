@@ -2,11 +2,10 @@
 //!
 //! Law: M99 gives back to the caller on both controls. In a main program it starts the program again on one of them; if
 //! nobody says so of the other, the library is asked once whether the programs that nothing calls are subprograms. Those
-//! numbered from 9000 are: the control's own protection of macros is for these numbers. Counter-example: a bar feeder's
-//! program, which ends in `M99` so that the next part begins.
+//! with the numbers of macros are. Counter-example: a bar feeder's program, which ends in `M99` so that the next part begins.
 
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question};
 use crate::ir::{Callee, Module, TermKind};
 use crate::legalize::{Context, calls_of};
 use crate::syntax::ProgramName;
@@ -27,7 +26,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         };
     }
     for (index, program) in module.programs.iter().enumerate() {
-        if program.name.as_ref().is_some_and(|name| called.contains(name) || is_macro(name)) {
+        if program.name.as_ref().is_some_and(|name| called.contains(name) || is_macro(name, context.source)) {
             continue;
         }
         let returns = |kind: &TermKind| matches!(kind, TermKind::Return { to: None });
@@ -43,7 +42,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-/// True for the numbers that controls keep from being edited by a parameter of their own, so that macros have them.
-fn is_macro(name: &ProgramName) -> bool {
-    matches!(name, ProgramName::Number(9000..=9999))
+/// True for the number of a macro: one of four digits, above those of main programs on its control.
+fn is_macro(name: &ProgramName, source: &Control) -> bool {
+    let ProgramName::Number(number) = name else { return false };
+    source.limit("program.main").is_some_and(|last| (last + 1..=9999).contains(number))
 }

@@ -9,14 +9,12 @@
 
 use super::cycle_values::Values;
 use super::groove_passes::is_of_groove;
-use super::pen::Lays;
+use super::pen::{Laid, Pen};
 use super::thread_loops::{counts, difference, moved, product, quotient, sum, whole};
 use super::thread_passes::{UNKNOWN, alone, rounded};
 use crate::canon::{Func, Op, Role};
 use crate::dialect::Control;
-use crate::ir::{
-    BlockId, Builder, Cond, Expr, Nc, NcItem, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
-};
+use crate::ir::{BlockId, Cond, Expr, Nc, NcItem, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var};
 use crate::text::Span;
 
 /// A groove whose numbers are computed; X as diameters, lengths as radii.
@@ -124,13 +122,6 @@ impl Axis {
     }
 }
 
-/// Lays down a groove.
-pub(super) struct Pen<'p> {
-    pub builder: &'p mut Builder,
-    pub temps: &'p mut u32,
-    pub found: &'p Groove,
-}
-
 /// An axis whose values may be read again, how long its way is, and the way itself where its sense is not known.
 struct Held {
     axis: Axis,
@@ -138,7 +129,7 @@ struct Held {
     way: Option<Expr>,
 }
 
-impl Pen<'_> {
+impl Pen<'_, Groove> {
     pub(super) fn write(mut self) {
         let found = self.found;
         if !found.site.comments.is_empty() || found.site.sequence.get().is_some() {
@@ -275,17 +266,9 @@ impl Pen<'_> {
     }
 }
 
-impl Lays for Pen<'_> {
-    fn builder(&mut self) -> &mut Builder {
-        self.builder
-    }
-
-    fn temps(&mut self) -> &mut u32 {
-        self.temps
-    }
-
+impl Laid for Groove {
     fn span(&self) -> Span {
-        self.found.site.span
+        self.site.span
     }
 }
 

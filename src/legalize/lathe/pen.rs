@@ -6,37 +6,42 @@
 use crate::ir::{Builder, Class, Cond, Expr, Place, SourceInfo, StmtKind, TermKind, Var};
 use crate::text::Span;
 
-/// Something that lays down blocks, all in the place of one statement.
-pub(super) trait Lays {
-    /// Where the blocks go.
-    fn builder(&mut self) -> &mut Builder;
-
-    /// The highest temporary so far.
-    fn temps(&mut self) -> &mut u32;
-
+/// What is laid down as a loop.
+pub(super) trait Laid {
     /// Where the statement stands in the source.
     fn span(&self) -> Span;
+}
 
+/// Lays down the blocks of a loop, all in the place of one statement.
+pub(super) struct Pen<'p, T> {
+    /// Where the blocks go.
+    pub builder: &'p mut Builder,
+    /// The highest temporary so far.
+    pub temps: &'p mut u32,
+    /// What they are made from.
+    pub found: &'p T,
+}
+
+impl<T: Laid> Pen<'_, T> {
     /// What each block says of where it comes from.
-    fn site(&self) -> SourceInfo {
-        SourceInfo { span: self.span(), ..SourceInfo::default() }
+    pub(super) fn site(&self) -> SourceInfo {
+        SourceInfo { span: self.found.span(), ..SourceInfo::default() }
     }
 
     /// A new temporary.
-    fn temp(&mut self) -> Var {
-        let temps = self.temps();
-        *temps += 1;
-        Var { class: Class::Temp, number: *temps }
+    pub(super) fn temp(&mut self) -> Var {
+        *self.temps += 1;
+        Var { class: Class::Temp, number: *self.temps }
     }
 
     /// Gives a variable a value.
-    fn set(&mut self, var: Var, value: Expr) {
+    pub(super) fn set(&mut self, var: Var, value: Expr) {
         let site = self.site();
-        self.builder().push(StmtKind::Assign { target: Place::Var(var), value }, site);
+        self.builder.push(StmtKind::Assign { target: Place::Var(var), value }, site);
     }
 
     /// A value that may be read again: a number, a variable, or a new variable with it.
-    fn held(&mut self, value: Expr) -> Expr {
+    pub(super) fn held(&mut self, value: Expr) -> Expr {
         if matches!(value, Expr::Var(_)) || value.constant().is_some() {
             return value;
         }
@@ -46,9 +51,9 @@ pub(super) trait Lays {
     }
 
     /// An alarm where a condition holds, as the cycle has.
-    fn stop_if(&mut self, cond: Cond, text: &str) {
+    pub(super) fn stop_if(&mut self, cond: Cond, text: &str) {
         let (site, cond) = (self.site(), Box::new(cond));
-        let builder = self.builder();
+        let builder = &mut *self.builder;
         let (then, otherwise) = (builder.fresh(), builder.fresh());
         builder.end(TermKind::Branch { cond, then, otherwise }, site.clone());
         builder.start(then);

@@ -9,14 +9,12 @@
 mod sums;
 
 use super::cycle_values::Values;
-use super::groove_loops::{self, Groove};
-use super::pen::Lays;
+use super::groove_loops::Groove;
+use super::pen::{Laid, Pen};
 use super::thread_passes::{RUN_OUT, UNKNOWN, alone, depths, is_of_thread, rounded, runs_out_by};
 use crate::canon::{Func, Op, Role};
 use crate::dialect::Control;
-use crate::ir::{
-    Builder, Cond, Expr, Nc, NcItem, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
-};
+use crate::ir::{Cond, Expr, Nc, NcItem, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use crate::text::Span;
 use std::collections::VecDeque;
@@ -130,19 +128,12 @@ pub(super) fn write(program: &mut Program, loops: Vec<((usize, usize), Made)>) {
         match if here { loops.pop_front() } else { None } {
             Some((_, Made::Thread(found))) => Pen { builder, temps: &mut temps, found: &found }.write(),
             Some((_, Made::Groove(found))) => {
-                groove_loops::Pen { builder, temps: &mut temps, found: &found }.write();
+                Pen { builder, temps: &mut temps, found: &found }.write();
             }
             None => part.keep(builder),
         }
         place.1 += 1;
     });
-}
-
-/// Lays down the passes of one thread.
-struct Pen<'p> {
-    builder: &'p mut Builder,
-    temps: &'p mut u32,
-    found: &'p Loop,
 }
 
 /// What all passes of a thread are made from.
@@ -157,7 +148,7 @@ struct Held {
     far: Option<Expr>,
 }
 
-impl Pen<'_> {
+impl Pen<'_, Loop> {
     fn write(mut self) {
         let found = self.found;
         if !found.site.comments.is_empty() || found.site.sequence.get().is_some() {
@@ -346,17 +337,9 @@ impl Pen<'_> {
     }
 }
 
-impl Lays for Pen<'_> {
-    fn builder(&mut self) -> &mut Builder {
-        self.builder
-    }
-
-    fn temps(&mut self) -> &mut u32 {
-        self.temps
-    }
-
+impl Laid for Loop {
     fn span(&self) -> Span {
-        self.found.site.span
+        self.site.span
     }
 }
 

@@ -98,7 +98,7 @@ impl Finding {
             Finding::NeverNamed(code) => {
                 let what = format!(
                     "a modal code is read, and the number of {code} is another one on {title}: no program of the library \
-                     names one, so make sure that none is in force when they begin"
+                     names one, so make sure that nothing else leaves one in force"
                 );
                 let finding = Diagnostic::new(Code::Conditional, span, what.clone()).asked_once();
                 context.add_once(index, &what, finding);

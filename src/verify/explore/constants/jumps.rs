@@ -253,8 +253,13 @@ fn is_end(items: &[Item], control: &Control) -> bool {
 fn ops<'i>(items: &'i [Item], control: &'i Control) -> impl Iterator<Item = Option<Op>> + 'i {
     items.iter().filter_map(move |item| {
         let ItemKind::Word(word) = &item.kind else { return None };
+        let value = number(word);
+        // By a parameter it calls a program.
+        if value.is_some_and(|value| control.alias(word.letter, value).is_some()) {
+            return Some(None);
+        }
         match word.letter {
-            'G' | 'M' => Some(number(word).and_then(|number| op_of((word.letter, number), items, control))),
+            'G' | 'M' => Some(value.and_then(|value| op_of((word.letter, value), items, control))),
             // A subroutine on some controls.
             'L' => Some(None),
             _ => None,

@@ -1,6 +1,6 @@
 use super::impossible;
 use crate::control::{LoadedFile, ProgramRef};
-use crate::dialect::{Control, registry};
+use crate::dialect::Control;
 use crate::syntax::parse_file;
 use crate::verify::sides::Side;
 
@@ -10,10 +10,13 @@ fn never(dialect: &str, text: &str) -> Vec<(String, i64)> {
 }
 
 fn ways(dialect: &str, text: &str, as_run: bool) -> Vec<(String, i64)> {
-    let control = Control::plain(dialect).unwrap();
+    ways_on(&Control::plain(dialect).unwrap(), text, as_run)
+}
+
+fn ways_on(control: &Control, text: &str, as_run: bool) -> Vec<(String, i64)> {
     let parsed = parse_file(text.as_bytes(), control.entry().parse);
     let files = [LoadedFile { name: "a.nc", parsed: &parsed }];
-    let side = Side::new(&control, registry::find(dialect).unwrap().execute.unwrap(), &files);
+    let side = Side::new(control, control.entry().execute.unwrap(), &files);
     let found = impossible(&side, ProgramRef { file: 0, program: 0 }, as_run);
     found.into_iter().map(|(span, way)| (text[span.range()].trim().to_owned(), way)).collect()
 }
@@ -113,6 +116,15 @@ fn a_source_is_followed_without_its_literals() {
     let after = "O1\nG65P2\nGOTO5\nIF[#1GT2]GOTO5\nN3IF[#1GT3]GOTO5\nN5M30\nO2\n";
     assert_eq!(never_of_source(&format!("{after}M99\n")).len(), 4);
     assert_eq!(never_of_source(&format!("{after}M99P3\n")).len(), 2);
+}
+
+/// By parameter 6071 a tool change calls O9001, which may set the variable.
+#[test]
+fn a_code_that_calls_a_program_leaves_nothing_known() {
+    let text = "O1\nIF[#1GT2]GOTO3\nG0X1.\nN3\n#102=0\nM6\nIF[#102EQ0]GOTO5\nG0X3.\nN5M30\n";
+    let never = |profile: &str| ways_on(&Control::from_profile(profile).unwrap(), text, false);
+    assert_eq!(never("dialect = \"fanuc\"\n"), [("[#102EQ0]".to_owned(), 0)]);
+    assert_eq!(never("dialect = \"fanuc\"\n[parameters]\n6071 = 6\n"), []);
 }
 
 #[test]
