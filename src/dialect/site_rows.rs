@@ -144,7 +144,14 @@ impl Overlay {
     }
 
     fn check_words(&mut self, site: &SiteCode, row: &CodeMeaning) {
+        let mut told: BTreeMap<&str, &str> = BTreeMap::new();
         for (letter, meaning) in &site.words {
+            if site.op.is_none()
+                && let Some(other) = told.insert(meaning, letter)
+            {
+                let message = format!("{other} and {letter} of {} are both '{meaning}'", site.code);
+                self.site_fault(site, message, "give each word a meaning of its own");
+            }
             let is_letter = address(letter).is_some_and(|(letter, _)| letter.is_ascii_uppercase());
             if !(is_letter || letter.starts_with('R')) || matches!(letter.as_str(), "G" | "M" | "N" | "O") {
                 let help = "write a letter and what it is: words = { P = \"level\" }";
@@ -156,6 +163,9 @@ impl Overlay {
                     None => "beside 'op' a word has a role: words = { F = \"dwell.s\" }".into(),
                 };
                 self.site_fault(site, format!("'{meaning}' is not the role of a word"), &help);
+            } else if meaning.trim().is_empty() {
+                let help = format!("name what it is: words = {{ {letter} = \"level\" }}");
+                self.site_fault(site, format!("{letter} of {} has no name", site.code), &help);
             } else if site.target.is_some() && address(meaning).is_none() {
                 let help = "beside 'target' a word becomes a letter of that code: words = { S = \"P\" }";
                 self.site_fault(site, format!("'{meaning}' is not the letter of a word"), help);

@@ -65,8 +65,12 @@ impl Control {
     /// Reads what the profile says.
     ///
     /// # Errors
-    /// A code that the control has not, or that is none of these; with what to do.
+    /// A code that the control has not, or that is none of these, or no code at all; with what to do.
     pub(super) fn read_start(&mut self) -> Result<(), (String, String)> {
+        if self.profile.start.codes.is_some() && !self.says_start() {
+            let help = "write what is in force when a program begins, or leave the line out";
+            return Err(("[start] has empty 'codes'".into(), help.into()));
+        }
         let found = self.start_modes(self.start_text()).map_err(|fault| self.told_elsewhere(fault))?;
         let unit = found.iter().find(|mode| mode.op.group() == Group::Units);
         let unit = unit.map(|mode| if mode.op == Op::Inch { Units::Inch } else { Units::Metric });

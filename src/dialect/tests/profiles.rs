@@ -231,6 +231,8 @@ fn a_machine_begins_in_what_its_profile_says() {
     start("G53", "'G53' is nothing that a program begins in");
     start("G99", "'G99' is nothing that a program begins in");
     start("ABS", "'ABS' is no code");
+    start("", "[start] has empty 'codes'");
+    start("  ", "[start] has empty 'codes'");
     start("G777", "Fanuc Custom Macro B has no code G777");
     wrong(
         "dialect = \"fadal\"\n[start]\ncodes = \"G21\"",

@@ -28,6 +28,9 @@ fn rows_that_contradict_themselves_or_the_table_are_faults() {
     fanuc("calls=9010,name='air'", "M14 has two meanings");
     fanuc("calls=9010,words={P='level'}", "M14 has words and calls a program");
     fanuc("name='air',words={PP='level'}", "'PP' is not the letter of a word");
+    fanuc("name='air',words={P=''}", "P of M14 has no name");
+    fanuc("name='air',words={P='level',Q='level'}", "P and Q of M14 are both 'level'");
+    fanuc("target='M88',words={P='S',Q='S'}", "P and Q of M14 are both 'S'");
     fanuc("name='air',words={G='level'}", "'G' is not the letter of a word");
     fanuc("target='M88',words={S='level'}", "'level' is not the letter of a word");
     fanuc("op='dwell',words={P='dwell.msec'}", "did you mean 'dwell.ms'?");
