@@ -13,6 +13,7 @@ pub(in crate::legalize) mod even_pecks;
 pub(in crate::legalize) mod hole_circles;
 pub(in crate::legalize) mod hole_moves;
 pub(in crate::legalize) mod inherited_words;
+pub(in crate::legalize) mod leadless_taps;
 pub(in crate::legalize) mod lone_words;
 pub(in crate::legalize) mod missing_pecks;
 mod peck_clear;

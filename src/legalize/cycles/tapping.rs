@@ -1,11 +1,10 @@
 //! Tapping by speed and lead, where the target's cycle takes speed and feed.
 //!
 //! Law: a tap that turns S times a minute and advances the lead p each turn feeds S * p a minute. Side conditions:
-//! the block has both words; feed is per minute on the target. Counter-example: under feed per turn the
-//! feed word is the lead itself. The feed that was in force is said again where the cycle ends, for the source's
+//! the block has both words; feed is per minute. Where nobody names how feeds count, they count so, as in all other blocks, unless
+//! the library has a code for another way. Counter-example: under feed per turn the feed word is the lead itself. The feed that was in force is said again where the cycle ends, for the source's
 //! tap leaves it alone. Where it is not a known number, the target reads it before the tap and says that, if it can and
-//! every way to the end of the cycle came by the reading; else that is a review diagnostic. A tap that is told no lead is refused: the
-//! feed that is in force was meant for something else.
+//! every way to the end of the cycle came by the reading; else that is a review diagnostic.
 
 mod kept;
 
@@ -16,14 +15,14 @@ use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind, Stmts};
 use crate::legalize::Context;
 use kept::{Does, Kept};
 
+const ONLY: &str = "a tapping cycle by its lead, without a speed in its block, or not in feed per minute";
+
+const IN_MINUTES: &str = "the cycle's feed is its speed times its lead, in feed per minute: write G94 before it, if that is in force here";
+
 const STAYS: &str = "the feed of the tapping cycle stays in force after it: write the feed again there";
 
 /// Gives tapping cycles a feed for their lead.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    leadless(module, context);
-    if !context.features.role(Role::Lead) {
-        return;
-    }
     if context.target.behaviour(Question::CycleTapFeed).is_some_and(|row| row.value == "lead") {
         return;
     }
@@ -32,6 +31,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if taps(nc))) {
         return;
     }
+    let one_mode = !context.features.any_op(|op| matches!(op, Op::FeedPerTurn | Op::FeedInverse));
     let facts = context.modal_facts(module);
     let kept = Kept::of(module, &facts, context.target);
     for (index, program) in module.programs.iter_mut().enumerate() {
@@ -45,7 +45,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let span = stmt.site.span;
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
                     if nc.ops().any(Op::is_tap)
-                        && let Some((code, what)) = give_feed(nc, state.op(Group::FeedMode))
+                        && let Some((code, what)) = give_feed(nc, state.op(Group::FeedMode), one_mode)
                     {
                         context.add(index, Diagnostic::new(code, span, what));
                     }
@@ -67,40 +67,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
-/// Refuses taps that are told no lead on a control that takes it from them: it would be a feed that was meant for something else.
-fn leadless(module: &Module, context: &mut Context<'_>) {
-    let by_lead = |row: &str| row == "lead";
-    if !context.source.behaviour(Question::CycleTapFeed).is_some_and(|row| by_lead(&row.value)) {
-        return;
-    }
-    let what = "this tap is told no lead, so it is not known how far it goes in a turn";
-    let help = "write the lead into its block (Q); if F is its feed and S its speed, the machine has another format than its \
-                profile says";
-    for (index, program) in module.programs.iter().enumerate() {
-        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-            let StmtKind::Nc(nc) = &stmt.kind else { continue };
-            if nc.ops().any(Op::is_tap) && nc.word(Role::Lead).is_none() {
-                let told = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
-                context.add(index, told.with_help(help));
-            }
-        }
-    }
-}
-
-/// Gives a tap by its lead a feed, and says on what condition.
-fn give_feed(nc: &mut Nc, mode: Option<Op>) -> Option<(Code, &'static str)> {
+/// Gives a tap by its lead a feed; else says why not, or on what condition.
+fn give_feed(nc: &mut Nc, mode: Option<Op>, one_mode: bool) -> Option<(Code, &'static str)> {
     let (speed, lead) = (nc.word(Role::Speed).cloned(), nc.word(Role::Lead).cloned()?);
-    Some(match speed {
-        Some(speed) if mode != Some(Op::FeedPerTurn) => {
-            set_feed(nc, speed, lead);
-            (Code::Conditional, "the cycle's feed is its speed times its lead, in feed per minute")
-        }
-        _ => (
-            Code::NoEquivalent,
-            "a tapping cycle by its lead, without a speed in its block or in feed \
-                                   per turn",
-        ),
-    })
+    let Some(speed) = speed.filter(|_| matches!(mode, None | Some(Op::FeedPerMinute))) else {
+        return Some((Code::NoEquivalent, ONLY));
+    };
+    set_feed(nc, speed, lead);
+    (mode.is_none() && !one_mode).then_some((Code::Conditional, IN_MINUTES))
 }
 
 fn set_feed(nc: &mut Nc, speed: Expr, lead: Expr) {

@@ -15,6 +15,7 @@ pub(in crate::legalize) mod machine_moves;
 pub(in crate::legalize) mod mains;
 pub(in crate::legalize) mod mixed_places;
 pub(in crate::legalize) mod off_circle;
+pub(in crate::legalize) mod other_start;
 pub(in crate::legalize) mod polar;
 pub(in crate::legalize) mod polar_mode;
 pub(in crate::legalize) mod rapid_in_force;

@@ -319,7 +319,7 @@ impl Counted {
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
                 for item in &nc.items {
                     match item {
-                        NcItem::Word(role, _) => counted.feed |= *role == Role::Feed,
+                        NcItem::Word(role, _) => counted.feed |= matches!(role, Role::Feed | Role::Lead),
                         NcItem::Code(..) => counted = Self { feed: true, plane: true, holes: true },
                         NcItem::Op(op) => {
                             let group = op.group();

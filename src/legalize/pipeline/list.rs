@@ -17,7 +17,7 @@ use crate::legalize::codes::{
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::{joined, mixed_places, start};
+use crate::legalize::moves::{joined, mixed_places, other_start, start};
 use crate::legalize::offsets::{argument_offsets, offset_numbers, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
@@ -142,6 +142,12 @@ const STRUCTURE: &[Pass] = &[
         .when(variable_names::concerns),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
+    Pass::reports(
+        "other-start",
+        "asks what the source begins in if only the target says it",
+        other_start::run,
+    )
+    .when(other_start::concerns),
     Pass::edits(
         "start",
         "what the source begins in stands at the heads of programs that rest on it",

@@ -4,7 +4,9 @@ use super::Pass;
 use super::lathe::is_mill;
 use crate::canon::{Op, Role};
 use crate::legalize::assumptions::barred;
-use crate::legalize::cycles::{hole_circles, pockets, rigid_taps, tap_leads, tapping, turn_feeds};
+use crate::legalize::cycles::{
+    hole_circles, leadless_taps, pockets, rigid_taps, tap_leads, tapping, turn_feeds,
+};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     absolute_places, added_angles, bare_arcs, home, increments, inverse_feeds, long_arcs, machine_feeds,
@@ -159,8 +161,9 @@ pub(super) const MOVES: &[Pass] = &[
     .when(rigid_taps::concerns),
     Pass::edits("turn-feeds", "taps in feed per turn feed per minute", turn_feeds::run)
         .when(|c, context| is_mill(context) && turn_feeds::concerns(c, context)),
-    Pass::rewrites("tapping", "taps by lead get a feed", tapping::run)
-        .when(|c, _| c.role(Role::Lead) || c.any_op(Op::is_tap)),
+    Pass::reports("leadless-taps", "refuses taps that are told no lead", leadless_taps::run)
+        .when(leadless_taps::concerns),
+    Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),
     Pass::rewrites("tap-leads", "taps by feed get a lead", tap_leads::run).when(tap_leads::concerns),
     Pass::rewrites("reference", "returns to the reference position name their axes", reference::run)
         .when(|c, _| c.op(Op::ReferenceReturn)),
