@@ -259,6 +259,8 @@ super::vocabulary! {
         ThreadRunOutOff = "thread.run.out.off",
         /// Makes the taps of the next cycle rigid: their feed follows the turns of the tool.
         RigidTaps = "tap.rigid",
+        /// Gets the spindle ready for a rigid tap whose cycle is a code of its own.
+        TapReady = "tap.ready",
         /// Runs the drilling cycle in force at places round the circle whose centre is where the tool stands.
         HolesCircle = "holes.circle",
         /// The same at places on an arc, by an angle between them.

@@ -115,7 +115,7 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         Op::CheckMetric if machine.inch => return Err(Stop::unnamed("the control is set to inch")),
         Op::ThreadRunOutOn | Op::ThreadRunOutOff => machine.set_run_out(op == Op::ThreadRunOutOn),
         // Rigid or not, a tap goes the same way.
-        Op::RigidTaps => {}
+        Op::RigidTaps | Op::TapReady => {}
         // These move, or are modes, or were done in their places.
         _ if op.group() != Group::OneShot || is_done_elsewhere(op) => {}
         // An M code of its own, which has its time.

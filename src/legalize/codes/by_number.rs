@@ -278,7 +278,10 @@ pub(in crate::legalize) fn renumbered(group: f64, source: &Control, target: &Con
     let group = Group::ALL.iter().find(|g| g.number().is_some_and(|n| f64::from(n) == group))?;
     let rows = source.dialect().codes.iter().filter(|row| row.op.group() == *group);
     let rows = rows.filter(|row| {
-        let there = target.code_for(row.op, &Default::default()).is_some() || row.op == Op::SelectWork;
+        // A rigid tap by a cycle of its own becomes a plain one.
+        let plain = row.op == Op::CycleTapRigid && row.preferred;
+        let there =
+            target.code_for(row.op, &Default::default()).is_some() || row.op == Op::SelectWork || plain;
         let same = row.head().and_then(|head| target.code(head.letter, head.number(), &[]));
         there && same.is_none_or(|same| same.op != row.op)
     });

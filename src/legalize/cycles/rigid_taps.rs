@@ -32,7 +32,7 @@ fn is_asked(op: Op, target: &Control) -> bool {
     op.is_tap() && !(target.machine() == Machine::Lathe && op.is_live_tap())
 }
 
-fn always(control: &Control) -> bool {
+pub(super) fn always(control: &Control) -> bool {
     control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always")
 }
 
@@ -98,9 +98,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     changed
 }
 
-type Told = (&'static str, &'static str);
+pub(super) type Told = (&'static str, &'static str);
 
-const SPEED: Told = (
+pub(super) const SPEED: Told = (
     "the code for a rigid tap takes the speed of the spindle, which is not known here, or is not the same for all who \
      call this program",
     "write S before the tap in this program",
@@ -184,7 +184,7 @@ fn take(stmt: &mut Stmt) {
 }
 
 /// The code with its speed, for a block of its own before a tap.
-fn code(speed: f64, tap: &Stmt) -> Stmt {
+pub(super) fn code(speed: f64, tap: &Stmt) -> Stmt {
     let items = vec![NcItem::Op(Op::RigidTaps), NcItem::Word(Role::Speed, Expr::Number(speed))];
     let site = SourceInfo { span: tap.site.span, skip: tap.site.skip, ..SourceInfo::default() };
     Stmt { kind: StmtKind::Nc(Nc { items }), site }

@@ -11,7 +11,7 @@ mod kept;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind, Stmts};
+use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
 use kept::{Does, Kept};
 
@@ -57,7 +57,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     nc.items.extend(feed.map(|feed| NcItem::Word(Role::Feed, feed)));
                 }
                 match (does, register) {
-                    (Does::Reads, Some(register)) => block.stmts.push(Kept::reading(register, &stmt)),
+                    (Does::Reads, Some(register)) => read(&mut block.stmts, Kept::reading(register, &stmt)),
                     (Does::Fails, _) => context.add(index, Diagnostic::new(Code::Conditional, span, STAYS)),
                     _ => {}
                 }
@@ -65,6 +65,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+}
+
+/// Puts the reading of the feed before the tap that comes next, and before the code that makes it rigid.
+fn read(stmts: &mut Stmts, reading: Stmt) {
+    let coded = stmts.last().is_some_and(|stmt| stmt.kind.has_op(Op::RigidTaps));
+    stmts.insert(stmts.len() - usize::from(coded), reading);
 }
 
 /// Gives a tap by its lead a feed; else says why not, or on what condition.

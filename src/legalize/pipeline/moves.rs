@@ -5,7 +5,7 @@ use super::lathe::is_mill;
 use crate::canon::{Op, Role};
 use crate::legalize::assumptions::barred;
 use crate::legalize::cycles::{
-    hole_circles, leadless_taps, pockets, rigid_taps, tap_leads, tapping, turn_feeds,
+    hole_circles, leadless_taps, pockets, rigid_cycles, rigid_taps, tap_leads, tapping, turn_feeds,
 };
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
@@ -153,6 +153,12 @@ pub(super) const MOVES: &[Pass] = &[
     )
     .when(kept_radius::concerns)
     .needs(&["length-radius"]),
+    Pass::edits(
+        "rigid-cycles",
+        "rigid taps by a cycle of their own are told in the way of the target",
+        rigid_cycles::run,
+    )
+    .when(rigid_cycles::concerns),
     Pass::edits(
         "rigid-taps",
         "the code for rigid taps stands only where taps are rigid by it",
