@@ -6,7 +6,7 @@
 //! speed is known for the code; the code for rigid taps stands in the way to the tap with no label between; a left-hand tap has no
 //! such cycle. Counter-example: a plain tap in a rigid holder, which takes up no difference between feed and turns.
 
-use super::rigid_taps::{SPEED, Told, always, code};
+use super::rigid_taps::{SPEED, Told, always, code, told_before};
 use super::tap_leads::{Speed, Speeds};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
@@ -99,7 +99,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     let turns = state.op(Group::SpeedMode) != Some(Op::SurfaceSpeed);
                     match speed {
                         _ if plain => {}
-                        Speed::Known(speed) if turns => block.stmts.push(code(speed, &stmt)),
+                        Speed::Known(speed) if turns => {
+                            block.stmts.push(code(speed, &stmt));
+                            told_before(&mut stmt, block.stmts.last());
+                        }
                         _ => found.push((span, SPEED)),
                     }
                 } else if taps && by_cycle && (all || asked) && !nc.has(Op::CycleTapRigid) {

@@ -83,7 +83,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     changed = true;
                     let turns = state.op(Group::SpeedMode) != Some(Op::SurfaceSpeed);
                     match speed {
-                        Speed::Known(speed) if turns => block.stmts.push(code(speed, &stmt)),
+                        Speed::Known(speed) if turns => {
+                            block.stmts.push(code(speed, &stmt));
+                            told_before(&mut stmt, block.stmts.last());
+                        }
                         _ => found.push((stmt.site.span, SPEED)),
                     }
                 }
@@ -180,6 +183,21 @@ fn take(stmt: &mut Stmt) {
     nc.items.retain(|item| *item != NcItem::Op(Op::RigidTaps));
     if nc.items.is_empty() {
         stmt.kind = StmtKind::Comment;
+    }
+}
+
+/// Takes the speed out of a tap that the code before it has told it: another one there is an alarm of some controls (PS0203).
+pub(super) fn told_before(tap: &mut Stmt, before: Option<&Stmt>) {
+    let StmtKind::Nc(tap) = &mut tap.kind else { return };
+    let told = before
+        .and_then(|stmt| stmt.kind.nc())
+        .filter(|nc| nc.has(Op::RigidTaps) && tap.ops().any(Op::is_tap));
+    let told = told.and_then(|nc| nc.word(Role::Speed)?.constant());
+    if told.is_some()
+        && tap.word(Role::Speed).and_then(Expr::constant) == told
+        && tap.word(Role::Lead).is_none()
+    {
+        tap.items.retain(|item| !matches!(item, NcItem::Word(Role::Speed, _)));
     }
 }
 

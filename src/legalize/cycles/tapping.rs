@@ -8,6 +8,7 @@
 
 mod kept;
 
+use super::rigid_taps::told_before;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
@@ -55,6 +56,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         _ => None,
                     };
                     nc.items.extend(feed.map(|feed| NcItem::Word(Role::Feed, feed)));
+                    told_before(&mut stmt, block.stmts.last());
                 }
                 match (does, register) {
                     (Does::Reads, Some(register)) => read(&mut block.stmts, Kept::reading(register, &stmt)),
