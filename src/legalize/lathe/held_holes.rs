@@ -6,6 +6,7 @@
 //! again are numbers and count as they did, nothing else leads into the cycle, holes end at the level where it began, and none has
 //! repeats or a block skip. Counter-example: `C90. M89` after a label that is jumped to, where the depth is not known.
 
+use super::hole_words::{Told, lasting};
 use super::holes::drills;
 use crate::canon::{Act, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -50,9 +51,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     continue;
                 };
                 let held = is_held(nc, clamps);
-                cycle.take(nc, op, &state);
+                cycle.told.take(nc, op, &state);
                 if !held && !cycle.is_ended {
-                    if cycle.op.is_none() {
+                    if cycle.told.op.is_none() {
                         open.push((index, stmt.site.span));
                     }
                     out.push(stmt);
@@ -112,46 +113,14 @@ fn is_held(nc: &Nc, clamps: Act) -> bool {
     acts.next() == Some(Some(clamps.number())) && acts.next().is_none()
 }
 
-/// What is known of the cycle in force.
+/// What is known of the cycle in force, and whether the target has none any more.
 #[derive(Clone, Debug, Default)]
 struct Cycle {
-    /// Its code, where it began in this block of the program.
-    op: Option<Op>,
-    /// The depth, the retract plane and the wait, as they were told last.
-    words: Vec<(Role, Expr)>,
-    /// Whether places were places or increments when it was told the depth.
-    mode: Option<Op>,
-    /// True where the target has none in force.
+    told: Told,
     is_ended: bool,
 }
 
-/// Words that a hole takes from the block of an earlier one.
-const LASTING: [Role; 4] = [Role::CycleRStep, Role::CycleDwell, Role::Z, Role::StepZ];
-const LASTING_SIDE: [Role; 4] = [Role::CycleRStep, Role::CycleDwell, Role::X, Role::StepX];
-
 impl Cycle {
-    fn lasting(op: Op) -> [Role; 4] {
-        if op.is_side_hole() { LASTING_SIDE } else { LASTING }
-    }
-
-    /// Takes what a block tells.
-    fn take(&mut self, nc: &Nc, op: Op, state: &Modal) {
-        if nc.ops().any(Op::is_hole) {
-            self.op = Some(op);
-        }
-        let depth = |role: &Role| !matches!(role, Role::CycleRStep | Role::CycleDwell);
-        for item in &nc.items {
-            let NcItem::Word(role, value) = item else { continue };
-            if Self::lasting(op).contains(role) {
-                self.words.retain(|(old, _)| old != role && !(depth(old) && depth(role)));
-                self.words.push((*role, value.clone()));
-                if depth(role) {
-                    self.mode = state.op(Group::Distance);
-                }
-            }
-        }
-    }
-
     /// The blocks of a hole. No blocks, if something of it is not known.
     fn written(
         &self,
@@ -159,26 +128,23 @@ impl Cycle {
         (acts, goes_back): (Option<[Act; 2]>, bool),
         (before, state): (&Modal, &Modal),
     ) -> Option<Vec<Nc>> {
-        let op = self.op?;
-        let told = |role: Role| self.words.iter().find(|(own, _)| *own == role).map(|(_, value)| value);
-        let plane = told(Role::CycleRStep).map_or(Some(0.0), Expr::constant)?;
-        let numbers = self.words.iter().all(|(_, value)| value.constant().is_some());
+        let op = self.told.op?;
+        let plane = self.told.plane()?;
         let rapid = before.op(Group::Motion) == Some(Op::Rapid);
         // The depth would count otherwise, or the next plane from another level.
-        let alike = self.mode == state.op(Group::Distance) && goes_back;
-        if !numbers || !rapid || !alike || nc.word(Role::Repeat).is_some() {
+        if !self.told.is_whole(state) || !rapid || !goes_back || nc.word(Role::Repeat).is_some() {
             return None;
         }
         let aside = |item: &NcItem| match item {
-            NcItem::Word(role, _) => *role == Role::Act || Self::lasting(op).contains(role),
+            NcItem::Word(role, _) => *role == Role::Act || lasting(op).contains(role),
             NcItem::Op(own) => *own == Op::Act || own.is_hole(),
             NcItem::Code(..) => false,
         };
-        let depth = |role: &Role| Self::lasting(op)[2..].contains(role);
+        let depth = |role: &Role| lasting(op)[2..].contains(role);
         let is_place = |item: &NcItem| matches!(item, NcItem::Word(role, _) if (role.is_axis() || role.is_step()) && !depth(role));
         let (places, rest): (Vec<_>, Vec<_>) =
             nc.items.iter().filter(|item| !aside(item)).cloned().partition(is_place);
-        let lasting = self.words.iter().map(|(role, value)| NcItem::Word(*role, value.clone()));
+        let lasting = self.told.words().map(|(role, value)| NcItem::Word(*role, value.clone()));
         let Some(acts) = acts else {
             let items = std::iter::once(NcItem::Op(op)).chain(places).chain(lasting).chain(rest);
             return Some(vec![Nc { items: items.collect() }]);

@@ -1,11 +1,13 @@
 //! Where the holes of a lathe end: at the level where the cycle began, or at the retract plane, by G98 and G99 on some controls alone.
 //!
 //! Law: a cycle that begins at its retract plane ends there. So where the target always goes back to where the cycle began, the tool goes to
-//! the place and to the plane before the cycle, in rapid, as the cycle does it; the last hole of such a cycle may go back by a move of its own.
+//! the place and to the plane before the cycle, in rapid, as the cycle does it; a hole of such a cycle that ends where the cycle began goes
+//! back by a move of its own, which ends the cycle. Where the next hole ends elsewhere, the cycle is told again, with all its words.
 //! Where the source always goes back, the target is told so.
-//! Side conditions: which of the two is in force is known, and the same for all holes of a cycle; rapid is in force before it; no repeats.
-//! Counter-example: `G99 G83 ..` and `G98` before a hole that is not its last one.
+//! Side conditions: which of the two is in force is known; what is told again are numbers that count as they did; rapid or G1 is in force before
+//! it. Counter-example: `G99 G83 ..`, and `G98` before a hole to which a jump leads.
 
+use super::hole_words::{Told, lasting};
 use super::holes::drills;
 use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
@@ -33,21 +35,18 @@ fn chooses(control: &Control) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let told = chooses(context.target);
     let facts = context.modal_facts(module);
-    let mut found = Vec::new();
+    let (mut found, mut ends) = (Vec::new(), Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
         let straight = entered_straight(program);
-        // Whether the cycle in force began at its plane on the target.
-        let mut lowered = None;
-        // The way from the plane of such a cycle back to where it began, if that is known.
-        let mut back: Option<Option<Nc>> = None;
-        let mut returns = Vec::new();
+        let mut walk = Walk::default();
         for ((id, block), straight) in program.ids().zip(&mut program.blocks).zip(straight) {
             let mut state = facts.at(index, id);
-            lowered = lowered.filter(|_| straight);
+            if !straight {
+                walk = Walk::default();
+            }
             let mut out = Stmts::with_capacity(block.stmts.len());
-            let mut rest = std::mem::take(&mut block.stmts).into_iter();
-            while let Some(mut stmt) = rest.next() {
-                let before = (state.op(Group::Cycle), state.op(Group::Motion));
+            for mut stmt in std::mem::take(&mut block.stmts) {
+                let before = state.clone();
                 state.step(&stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else {
                     out.push(stmt);
@@ -55,58 +54,47 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 };
                 if told {
                     tell(nc);
-                } else {
-                    nc.items.retain(|item| !matches!(item, NcItem::Op(Op::ReturnInitial | Op::ReturnR)));
-                    if drills(nc, &state).is_some() {
-                        let goes_on = before.0 != Some(Op::CycleOff);
-                        let hole = Hole { before, lowered, skipped: stmt.site.skip.is_some() };
-                        if goes_on
-                            && let Some(back) = back.clone().filter(|_| hole.rises(nc, &state))
-                            && is_last(rest.as_slice(), &state)
-                        {
-                            let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
-                            out.push(stmt);
-                            out.extend(back.map(|back| Stmt { kind: StmtKind::Nc(back), site }));
-                            continue;
-                        }
-                        if !goes_on {
-                            back = way_back(nc);
-                        }
-                        match hole.end(nc, &state) {
-                            Ok((stmts, now)) => {
-                                let site = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
-                                let new = |nc| Stmt { kind: StmtKind::Nc(nc), site: site.clone() };
-                                out.extend(stmts.into_iter().map(new));
-                                let open = goes_on && lowered.is_none();
-                                lowered = now;
-                                returns.push((state.op(Group::ReturnPlane), open, stmt.site.span));
-                            }
-                            Err(what) => found.push((index, stmt.site.span, what)),
-                        }
+                    out.push(stmt);
+                    continue;
+                }
+                nc.items.retain(|item| !matches!(item, NcItem::Op(Op::ReturnInitial | Op::ReturnR)));
+                let Some(op) = drills(nc, &state) else {
+                    if nc.items.is_empty() {
+                        stmt.kind = StmtKind::Comment;
+                    }
+                    out.push(stmt);
+                    continue;
+                };
+                let hole = Hole { nc, op, before: &before, state: &state, skipped: stmt.site.skip.is_some() };
+                let open = hole.goes_on() && walk.cycle == Target::Unknown;
+                ends.push((index, state.op(Group::ReturnPlane), open, stmt.site.span));
+                match walk.hole(&hole) {
+                    Ok(None) => out.push(stmt),
+                    Ok(Some(blocks)) => {
+                        let aside = SourceInfo { span: stmt.site.span, ..SourceInfo::default() };
+                        let sites = std::iter::once(stmt.site).chain(std::iter::repeat(aside));
+                        let new = |(nc, site)| Stmt { kind: StmtKind::Nc(nc), site };
+                        out.extend(blocks.into_iter().zip(sites).map(new));
+                    }
+                    Err(what) => {
+                        found.push((index, stmt.site.span, what));
+                        out.push(stmt);
                     }
                 }
-                if nc_is_empty(&stmt.kind) {
-                    stmt.kind = StmtKind::Comment;
-                }
-                out.push(stmt);
             }
             block.stmts = out;
         }
-        // A hole that goes on from a cycle that other ways lead to too: all holes must end alike.
-        let alike = returns.iter().all(|(plane, ..)| Some(*plane) == returns.first().map(|first| first.0));
-        let goes_on = returns.iter().find(|(_, open, _)| *open);
-        if let Some((.., span)) = goes_on.filter(|_| !alike) {
-            found.push((index, *span, MIXED));
-        }
+    }
+    // A hole that goes on from a cycle that other ways lead to too: all holes must end alike.
+    let alike = ends.iter().all(|(_, plane, ..)| Some(*plane) == ends.first().map(|first| first.1));
+    let goes_on = ends.iter().find(|(_, _, open, _)| *open);
+    if let Some((index, .., span)) = goes_on.filter(|_| !alike) {
+        found.push((*index, *span, MIXED));
     }
     for (index, span, what) in found {
         context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(HELP));
     }
     true
-}
-
-fn nc_is_empty(kind: &StmtKind) -> bool {
-    kind.nc().is_some_and(|nc| nc.items.is_empty())
 }
 
 /// Writes the code before that of a cycle.
@@ -117,112 +105,199 @@ fn tell(nc: &mut Nc) {
     }
 }
 
-/// A block that drills.
-struct Hole {
-    /// The cycle and the interpolation in force before it.
-    before: (Option<Op>, Option<Op>),
-    lowered: Option<bool>,
+/// A block that drills, without the codes that say where it ends.
+struct Hole<'h> {
+    nc: &'h Nc,
+    op: Op,
+    before: &'h Modal,
+    state: &'h Modal,
     skipped: bool,
 }
 
-/// What goes before a hole, and whether its cycle begins at the plane on the target.
-type End = (Vec<Nc>, Option<bool>);
+/// What is in force on the target.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Target {
+    /// What the ways that lead here left.
+    #[default]
+    Unknown,
+    /// A cycle that began where that of the source did.
+    Level,
+    /// A cycle that began at its retract plane.
+    Plane,
+    /// No cycle: a move ended it.
+    Ended,
+}
 
-impl Hole {
-    /// True of a hole that ends where its cycle began on the source, and at the plane on the target, as the holes before it.
-    fn rises(&self, nc: &Nc, state: &Modal) -> bool {
-        let plain = nc.word(Role::CycleRStep).or(nc.word(Role::Repeat)).is_none() && !self.skipped;
-        let back = state.op(Group::ReturnPlane) == Some(Op::ReturnInitial);
-        self.lowered == Some(true) && back && plain && state.op(Group::Motion) == Some(Op::Rapid)
-    }
+/// What is known of the cycle in force.
+#[derive(Clone, Debug, Default)]
+struct Walk {
+    told: Told,
+    cycle: Target,
+}
 
-    fn end(&self, nc: &mut Nc, state: &Modal) -> Result<End, &'static str> {
-        let at_plane = match state.op(Group::ReturnPlane) {
-            Some(Op::ReturnR) => true,
-            Some(_) => false,
+impl Walk {
+    /// The blocks for a hole; none where it stays as it is.
+    fn hole(&mut self, hole: &Hole<'_>) -> Result<Option<Vec<Nc>>, &'static str> {
+        let ends = match hole.state.op(Group::ReturnPlane) {
+            Some(Op::ReturnR) => Target::Plane,
+            Some(_) => Target::Level,
             None => return Err(UNKNOWN),
         };
-        let plane = nc.word(Role::CycleRStep).cloned();
-        let goes_on = self.before.0 != Some(Op::CycleOff);
-        if !at_plane && !goes_on {
-            return Ok((Vec::new(), Some(false)));
+        let goes_on = hole.goes_on();
+        if !goes_on {
+            *self = Self::default();
         }
-        if goes_on {
-            // What the block before it left to other ways is looked at for the whole program.
-            return match (self.lowered, plane) {
-                (Some(lowered), _) if lowered != at_plane => Err(MIXED),
-                (_, Some(_)) if at_plane => Err(PLANE),
-                _ => Ok((Vec::new(), self.lowered)),
-            };
+        let plane = self.told.plane();
+        self.told.take(hole.nc, hole.op, hole.state);
+        if hole.skipped {
+            // Some runs do not come by what it says.
+            self.told.op = None;
         }
-        let r = plane.as_ref().map_or(Some(0.0), Expr::constant).ok_or(PLANE)?;
-        if self.before.1 != Some(Op::Rapid) || self.skipped || nc.word(Role::Repeat).is_some() {
+        let old = std::mem::replace(&mut self.cycle, ends);
+        let tells_plane = hole.nc.word(Role::CycleRStep).is_some();
+        let moves_plane = tells_plane && (plane.is_none() || plane != self.told.plane());
+        match (old, ends) {
+            (Target::Unknown, Target::Plane) if goes_on && tells_plane => Err(PLANE),
+            (Target::Plane, Target::Plane) if moves_plane => {
+                self.at_plane(hole, plane.ok_or(PLANE)?).map(Some)
+            }
+            // What the block before it left to other ways is looked at for the whole library.
+            (Target::Unknown, _) if goes_on => {
+                self.cycle = old;
+                Ok(None)
+            }
+            (Target::Unknown | Target::Level, Target::Level) => Ok(None),
+            (Target::Plane, Target::Plane) => Ok(tells_plane.then(|| vec![at_its_plane(hole.nc.clone())])),
+            (Target::Plane, _) if moves_plane => Err(MIXED),
+            (Target::Plane, _) => {
+                self.cycle = Target::Ended;
+                self.back(hole).map(Some)
+            }
+            (_, Target::Plane) => self.at_plane(hole, 0.0).map(Some),
+            (_, _) => self.again(hole).map(|nc| Some(vec![nc])),
+        }
+    }
+
+    /// A hole of a cycle that began at its plane, and the way back to where the source's cycle began.
+    fn back(&self, hole: &Hole<'_>) -> Result<Vec<Nc>, &'static str> {
+        let plane = self.told.plane().ok_or(MIXED)?;
+        if hole.nc.word(Role::Repeat).is_some() {
             return Err(EMULATION);
         }
-        let side = nc.ops().any(Op::is_side_hole);
-        Ok((lead(nc, side, r), Some(true)))
-    }
-}
-
-/// True where the cycle in force drills nothing more: it ends in these statements before another hole.
-fn is_last(rest: &[Stmt], state: &Modal) -> bool {
-    let mut state = state.clone();
-    for stmt in rest {
-        state.step(stmt);
-        match &stmt.kind {
-            StmtKind::Nc(nc) if drills(nc, &state).is_some() => return false,
-            StmtKind::Nc(_) if state.op(Group::Cycle) == Some(Op::CycleOff) => return true,
-            StmtKind::Nc(_) | StmtKind::Comment | StmtKind::Assign { .. } => {}
-            _ => return false,
+        let mut blocks = vec![at_its_plane(hole.nc.clone())];
+        if plane != 0.0 {
+            blocks.push(hole.along(-plane));
+            blocks.extend(hole.motion()?);
         }
+        Ok(blocks)
     }
-    false
+
+    /// The way to the place and to the plane, from so far toward it, and the cycle from there.
+    fn at_plane(&self, hole: &Hole<'_>, from: f64) -> Result<Vec<Nc>, &'static str> {
+        let plane = self.told.plane().ok_or(PLANE)?;
+        let motion = hole.motion()?;
+        let times = match hole.nc.word(Role::Repeat).map(|times| times.constant()) {
+            None => 1.0,
+            Some(times) => times.filter(|times| *times >= 1.0 && times.fract() == 0.0).ok_or(EMULATION)?,
+        };
+        let (places, rest) = hole.parts();
+        if times > 1.0 && places.is_empty() {
+            return Err(EMULATION);
+        }
+        let mut blocks = Vec::new();
+        if !places.is_empty() {
+            blocks.push(Nc { items: std::iter::once(NcItem::Op(Op::Rapid)).chain(places.clone()).collect() });
+        }
+        if plane != from {
+            blocks.push(hole.along(plane - from));
+        }
+        if !blocks.is_empty() {
+            blocks.extend(motion);
+        }
+        blocks.push(at_its_plane(Nc { items: self.words(hole, rest)? }));
+        if times > 1.0 {
+            let peck = hole.nc.word(Role::CycleQ).map(|peck| NcItem::Word(Role::CycleQ, peck.clone()));
+            let more = (times > 2.0).then(|| NcItem::Word(Role::Repeat, Expr::Number(times - 1.0)));
+            blocks.push(Nc { items: places.into_iter().chain(peck).chain(more).collect() });
+        }
+        Ok(blocks)
+    }
+
+    /// The hole, with the code of its cycle and all that the cycle was told.
+    fn again(&self, hole: &Hole<'_>) -> Result<Nc, &'static str> {
+        let (places, rest) = hole.parts();
+        let repeat = hole.nc.word(Role::Repeat).map(|times| NcItem::Word(Role::Repeat, times.clone()));
+        let items = self.words(hole, rest)?.into_iter();
+        let (codes, words): (Vec<_>, Vec<_>) = items.partition(|item| matches!(item, NcItem::Op(_)));
+        Ok(Nc { items: codes.into_iter().chain(places).chain(words).chain(repeat).collect() })
+    }
+
+    /// The code of the cycle and its words, in a block that has these beside its place.
+    fn words(&self, hole: &Hole<'_>, rest: Vec<NcItem>) -> Result<Vec<NcItem>, &'static str> {
+        if !hole.goes_on() {
+            return Ok(rest);
+        }
+        if hole.skipped || !self.told.is_whole(hole.state) {
+            return Err(MIXED);
+        }
+        let lasting = lasting(hole.op);
+        let told = self.told.words().map(|(role, value)| NcItem::Word(*role, value.clone()));
+        let own = |item: &NcItem| match item {
+            NcItem::Op(op) => !op.is_hole(),
+            NcItem::Word(role, _) => !lasting.contains(role),
+            NcItem::Code(..) => true,
+        };
+        Ok(self.told.op.map(NcItem::Op).into_iter().chain(told).chain(rest.into_iter().filter(own)).collect())
+    }
 }
 
-/// The move from the plane of a cycle to where it began: an empty one if both are one place. Nothing, if that is not known.
-fn way_back(nc: &Nc) -> Option<Option<Nc>> {
-    if nc.word(Role::CycleR).is_some() {
-        return None;
-    }
-    let r = nc.word(Role::CycleRStep).map_or(Some(0.0), Expr::constant)?;
-    let side = nc.ops().any(Op::is_side_hole);
-    let (role, by) = if side { (Role::StepX, -2.0 * r) } else { (Role::StepZ, -r) };
-    let items = || vec![NcItem::Op(Op::Rapid), NcItem::Word(role, Expr::Number(by))];
-    Some((by != 0.0).then(|| Nc { items: items() }))
-}
-
-/// The moves to the place of a hole, and to its plane; the cycle then begins there.
-fn lead(nc: &mut Nc, side: bool, r: f64) -> Vec<Nc> {
-    let along = |role: Role| match side {
-        true => matches!(role, Role::X | Role::StepX),
-        false => matches!(role, Role::Z | Role::StepZ),
-    };
-    let place = |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_axis() && !along(*role));
-    let (places, rest): (Vec<_>, Vec<_>) = std::mem::take(&mut nc.items).into_iter().partition(place);
-    nc.items = rest;
+/// A cycle that begins at its retract plane.
+fn at_its_plane(mut nc: Nc) -> Nc {
     for item in &mut nc.items {
         if let NcItem::Word(Role::CycleRStep, value) = item {
             *value = Expr::Number(0.0);
         }
     }
-    let rapid =
-        |items: Vec<NcItem>| Nc { items: std::iter::once(NcItem::Op(Op::Rapid)).chain(items).collect() };
-    let mut out = Vec::new();
-    if !places.is_empty() {
-        out.push(rapid(places));
+    nc
+}
+
+impl Hole<'_> {
+    /// True where a cycle is in force before it, or may be.
+    fn goes_on(&self) -> bool {
+        self.before.op(Group::Cycle) != Some(Op::CycleOff)
     }
-    if r != 0.0 {
-        let (role, by) = if side { (Role::StepX, 2.0 * r) } else { (Role::StepZ, r) };
-        out.push(rapid(vec![NcItem::Word(role, Expr::Number(by))]));
+
+    /// The words of its place, and what else it has, without repeats.
+    fn parts(&self) -> (Vec<NcItem>, Vec<NcItem>) {
+        let depth = &lasting(self.op)[2..];
+        let is_place =
+            |item: &NcItem| matches!(item, NcItem::Word(role, _) if role.is_axis() && !depth.contains(role));
+        let repeats = |item: &&NcItem| !matches!(item, NcItem::Word(Role::Repeat, _));
+        self.nc.items.iter().filter(repeats).cloned().partition(is_place)
     }
-    out
+
+    /// A rapid along the hole, by a radius where it goes along X.
+    fn along(&self, by: f64) -> Nc {
+        let (role, by) = if self.op.is_side_hole() { (Role::StepX, 2.0 * by) } else { (Role::StepZ, by) };
+        Nc { items: vec![NcItem::Op(Op::Rapid), NcItem::Word(role, Expr::Number(by))] }
+    }
+
+    /// What goes after a rapid, so that the block after the cycle moves as it did.
+    fn motion(&self) -> Result<Option<Nc>, &'static str> {
+        match self.before.op(Group::Motion) {
+            _ if self.skipped => Err(EMULATION),
+            Some(Op::Rapid) => Ok(None),
+            Some(Op::Linear) => Ok(Some(Nc { items: vec![NcItem::Op(Op::Linear)] })),
+            _ => Err(EMULATION),
+        }
+    }
 }
 
 const UNKNOWN: &str = "whether holes end at the level where the cycle began (G98) or at the retract plane (G99) is not known here";
 const MIXED: &str =
     "holes of one drilling cycle end at two levels: the target always goes back to where the cycle began";
 const PLANE: &str = "the retract plane of a hole that ends there (G99) is computed, or changes in the cycle: the target always goes back to where it began";
-const EMULATION: &str = "a hole that ends at its retract plane (G99) in a block with repeats or a block skip, or without rapid traverse in force \
-                         before it: the target always goes back to where the cycle began";
+const EMULATION: &str = "a hole that ends at its retract plane (G99) has computed repeats or a block skip, or what moves before it is neither G0 nor \
+                         G1, or not known: the target always goes back to where the cycle began";
 const HELP: &str = "write G98 before the cycle, or G0 and a move to the retract plane, and R as 0 in the cycle; or say in the source's profile how a \
                     program begins: [start] codes";

@@ -18,6 +18,7 @@ mod groove_passes;
 pub mod held_holes;
 pub mod hole_codes;
 pub mod hole_returns;
+mod hole_words;
 pub mod holes;
 pub mod inch_leads;
 pub mod interpolations;
