@@ -255,7 +255,7 @@ fn makers_own(code: &str, source: &Control) -> Option<&'static str> {
 /// What a person can do about such a code.
 fn instead(code: &str) -> String {
     let profile = "say in the source's profile what becomes of it: [[site]] with code, a text, and name (in both \
-                   profiles), target or do";
+                   profiles), op, target or do";
     if code.starts_with('G') {
         format!(
             "have your CAM write what {code} does as moves, or write them by hand, and convert those; or {profile}"

@@ -97,7 +97,9 @@ fn set_zero(source: &Control) -> String {
 const LEADS: &str = "cut this thread on a machine that has the code. Threads of one lead each, block after block, only come near it: if that is \
                      good enough for the part, write them into the source yourself";
 
-const SIDE: &str = "let the CAM system write this part for the target, or write straight lines as G1 with Z and C in degrees and arcs as many short \
+const SIDE: &str = "if the machine has a code for it under which C counts degrees, as here, name it in the target's profile: [[site]] with its code, op = \
+                    \"interpolation.cylinder\", words = { R = \"cylinder.radius\" } (the letter of the radius) and a text; moves and arcs stay as they are \
+                    then. Or let the CAM system write this part for the target, or write straight lines as G1 with Z and C in degrees and arcs as many short \
                     lines: along a straight line round the side Z and C go evenly, so the path is the same. F is not the speed along the side there: try \
                     it with the tool in the air";
 
