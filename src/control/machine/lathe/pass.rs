@@ -52,6 +52,10 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
         return Err(Stop::unnamed("the first block of a pass without X or without Z"));
     };
     trace.doubt("machine:lathe.pass.moves");
+    if is_told && own[..4].iter().all(|role| command.word(*role).is_none()) {
+        // The taper alone is no way.
+        trace.doubt("behaviour:pass.empty");
+    }
     let start_of_thread = command.word(Role::ThreadStart).unwrap_or(0.0);
     trace.rounded = machine.off_by() + 2.0 * machine.most_off(command, |_| true);
     match machine.motion {

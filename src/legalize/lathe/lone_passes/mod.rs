@@ -98,6 +98,12 @@ impl Walk<'_, '_> {
         }
         let pass = state.op(Group::Motion);
         let goes_on = runs(nc) && !nc.ops().any(Op::is_for_its_block);
+        let without_way =
+            goes_on && nc.items.iter().filter_map(|item| place_of(role(item)?)).all(|at| at == 2);
+        if without_way && pass.is_some_and(Op::is_pass) {
+            self.empty(stmt);
+        }
+        let StmtKind::Nc(nc) = &stmt.kind else { return false };
         match pass.filter(|op| op.is_pass()) {
             Some(pass) if goes_on => self.go_on(stmt, pass, &before),
             Some(_) if switches_alone(nc) && !before.is_untold() => self.alone(stmt, &before),
@@ -109,7 +115,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// A block without a word, with F alone, or with codes that only say how words count.
+    /// A block without a word, with F or a taper alone, or with codes that only say how words count.
     fn empty(&mut self, stmt: &Stmt) {
         let (index, span) = (self.index, stmt.site.span);
         self.context.rests_on_source(index, span, Question::PassEmpty);
