@@ -242,6 +242,13 @@ impl Control {
         self.behaviour(question).is_some_and(|row| row.value == "true")
     }
 
+    /// The question that says whether a block drills that names a cycle and has no word of an axis or a plane: its own, or where
+    /// the table has none that of a block without a position.
+    pub fn of_wordless_cycles(&self) -> Question {
+        let own = Question::CycleRunsWithoutWords;
+        if self.behaviour(own).is_some() { own } else { Question::CycleRunsWithoutAxes }
+    }
+
     /// The class of a numbered variable.
     pub fn variable_class(&self, name: &str, number: u32) -> Option<&VariableClass> {
         self.classes()

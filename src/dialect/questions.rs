@@ -240,6 +240,7 @@ questions! {
     CycleL0Moves "cycle.l0.moves" YES, "a position beside a repeat count of 0 is gone to, and nothing is drilled there", if "role:repeat";
     CycleRepeatLetter "cycle.repeat.letter" OneOf(&["K", "L"]), "the letter by which the count of a drilling cycle is written, where the control reads two", if "said";
     CycleRunsWithoutAxes "cycle.runs.without.axes" YES, "a cycle's own block runs it even without a position";
+    CycleRunsWithoutWords "cycle.runs.without.words" YES, "a cycle's own block runs it even without a word of an axis or a retract plane", if "said";
     CycleRunsByDepth "cycle.runs.by.depth" YES, "a block with a new depth or retract plane alone runs the cycle in force";
     CycleRunsByRotary "cycle.runs.by.rotary" YES, "a block with a word of a rotary axis alone runs the cycle in force", if "said";
     CycleStartsSpindle "cycle.starts.spindle" YES, "a drilling cycle starts a spindle that a tool change left standing, and a tap any that stands", if "said";
@@ -336,6 +337,7 @@ questions! {
     ChangeLength "change.length" OneOf(&["kept", "cancelled", "unknown"]), "whether a tool change keeps the tool length in force, or cancels it until it is named again", if "op:tool.change";
     PositionLength "position.length" OneOf(&["added", "left.out", "unknown"]), "whether the present position and the touched one, read in the program's coordinates, hold the tool length too: the place of the spindle, or of the tip";
     CycleRWord "cycle.r.word" YES, "a word R beside a drilling cycle is the retract plane, as R0 is";
+    MirrorOffAxes "mirror.off.axes" OneOf(&["named", "all", "unknown"]), "what the end of mirroring ends that names axes: those, or every axis", if "said";
     MirrorAbout "mirror.about" OneOf(&["word", "zero", "unknown"]), "the point about which an axis is mirrored: the \
                                                                      coordinate in its word, or the work zero", if "op:mirror.on";
     ShapeFrameCodes "shape.frame.codes" OneOf(&["kept", "unknown"]), "whether a change of plane or of work offset, a set position, a move in machine coordinates and a return to the reference position may stand while coordinates are turned, scaled or mirrored, and do then what they do without", if "op:mirror.on or op:rotate.on";

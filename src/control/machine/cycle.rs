@@ -56,9 +56,12 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     };
     let alone = !command.has_axes() && !command.has(Op::CycleHere) && is_alone(command);
     let rules = &machine.rules;
-    let drills = begins.is_some() && rules.cycle_runs_without_axes.peek();
+    let drills = begins.is_some() && rules.cycle_runs_without_words.peek();
     if !alone || drills || rules.lone_words_kept.ask(trace) {
+        let kept = cycle.bottom_kept(command, incremental, along);
+        let kept = kept.filter(|_| rules.planes_frozen.ask(trace));
         cycle.read(command, (unit, incremental), along);
+        cycle.stay(kept);
     }
     machine.round_cycle(command, along, begins.is_some());
     machine.round_in(&across(command, along), trace);
@@ -74,7 +77,8 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         _ if count == 0 => false,
         (true, true) => rules.cycle_block_runs.ask(trace),
         (false, true) => true,
-        (true, false) => rules.cycle_runs_without_axes.ask(trace),
+        (true, false) if depths || by_others => rules.cycle_runs_without_axes.ask(trace),
+        (true, false) => rules.cycle_runs_without_words.ask(trace),
         (false, false) => depths && rules.cycle_runs_by_depth.ask(trace),
     };
     if count == 0 && places {
@@ -221,6 +225,20 @@ impl Cycle {
     pub(super) fn drilling(initial: f64, left: Drilling) -> Self {
         let (r, z) = (Some((left.retract, false)), Some((left.bottom, false)));
         Self { r, z, ..Self::new(Op::CycleDrill, initial) }
+    }
+
+    /// The bottom of before a block that moves the retract plane alone, by increments: it was a place when its block was read.
+    fn bottom_kept(&self, command: &Command, incremental: bool, along: usize) -> Option<f64> {
+        let deeper = command.axes().any(|(axis, _)| axis == along);
+        let told = incremental && !deeper && self.r.is_some_and(|(_, given)| given);
+        (told && command.word(Role::CycleR).is_some() && self.z.is_some_and(|(_, given)| given))
+            .then(|| self.planes(None).map(|planes| planes.bottom))?
+    }
+
+    /// Keeps the bottom where it was, under another retract plane.
+    fn stay(&mut self, kept: Option<f64>) {
+        let Some(((r, _), bottom)) = self.r.zip(kept) else { return };
+        self.z = Some((bottom - self.initial - r, true));
     }
 
     /// Takes the block's words; those it does not have stay.

@@ -96,6 +96,7 @@ pub struct Rules {
     pub pass_cleared: Fact<bool>,
     pub cycle_block_runs: Fact<bool>,
     pub cycle_runs_without_axes: Fact<bool>,
+    pub cycle_runs_without_words: Fact<bool>,
     pub cycle_runs_by_depth: Fact<bool>,
     pub rotation_runs_cycle: Fact<bool>,
     pub rotation_is_ccw: Fact<bool>,
@@ -151,6 +152,7 @@ pub struct Rules {
     pub cycle_runs_by_rotary: Fact<bool>,
     pub length_after_change: Fact<LengthAfter>,
     pub mirrors_about_word: Fact<bool>,
+    pub mirror_off_names: Fact<bool>,
     pub positions_hold_length: Fact<bool>,
     /// What codes of the frame do under a rotation, a scale or a mirror is nowhere another answer.
     pub frame_codes_when_shaped: Fact<()>,
@@ -257,6 +259,7 @@ impl Rules {
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
                 .or_silent(control, Question::CycleBlockRuns),
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),
+            cycle_runs_without_words: yes(control, control.of_wordless_cycles(), false),
             cycle_runs_by_depth: yes(control, Question::CycleRunsByDepth, false),
             rotation_runs_cycle: yes(control, Question::RotationRunsCycle, false),
             rotation_adds: yes(control, Question::RotationAdds, false)
@@ -332,6 +335,8 @@ impl Rules {
             length_after_change: fact(control, Question::ChangeLength, length_after, LengthAfter::Kept)
                 .or_silent(control, Question::ChangeLength),
             positions_hold_length: fact(control, Question::PositionLength, word("added", "left.out"), false),
+            mirror_off_names: fact(control, Question::MirrorOffAxes, word("named", "all"), true)
+                .or_silent(control, Question::MirrorOffAxes),
             mirrors_about_word: fact(control, Question::MirrorAbout, word("word", "zero"), true),
             frame_codes_when_shaped: fact(control, Question::ShapeFrameCodes, only("kept"), ()),
             scale_reaches_cycle: fact(control, Question::ScaleReachesCycle, only("true"), ()),

@@ -118,10 +118,11 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
             }
             Op::MirrorOff => {
                 let axes = machine.named_axes(command);
-                for axis in 0..AXES {
-                    if axes.is_empty() || axes.iter().any(|(named, _)| *named == axis) {
-                        machine.frame.mirror[axis] = None;
-                    }
+                let named = |axis: usize| axes.iter().any(|(named, _)| *named == axis);
+                let left = (0..AXES).any(|axis| machine.frame.mirror[axis].is_some() && !named(axis));
+                let all = axes.is_empty() || left && !machine.rules.mirror_off_names.ask(trace);
+                for axis in (0..AXES).filter(|axis| all || named(*axis)) {
+                    machine.frame.mirror[axis] = None;
                 }
             }
             Op::ScaleOn => scale(machine, command, trace),

@@ -4,7 +4,7 @@
 //! stands (`X#5001 Y#5002` in absolute coordinates, `X0 Y0` in incremental ones) runs it there. The end of the block
 //! before is what is given, where the target has that: the present position may be read ahead of the moves. In the
 //! block that defines the cycle nothing need be added where that block runs the cycle anyway. A block that defines a
-//! cycle without a position runs it where the tool stands or only stores it: the target is told by a place, or by a
+//! cycle without a position, or without any word, runs it where the tool stands or only stores it: the target is told by a place, or by a
 //! repeat of none, where the two controls do not agree. So is a block that names a new depth or plane alone for the cycle
 //! in force, and one with a word of a rotary axis alone.
 //! Under a rotation the present place would be turned once more; there the block gets the words that
@@ -33,20 +33,32 @@ impl Bare {
     fn of(question: Question, source: &Control, target: &Control) -> Self {
         // A control whose table is silent of it takes a rotary axis for a place.
         let silent = (question == Question::CycleRunsByRotary).then(|| "true".to_owned());
-        let answer =
-            |control: &Control| control.behaviour(question).map(|row| row.value.clone()).or(silent.clone());
+        let answer = |control: &Control| {
+            let row = control.behaviour(of(question, control));
+            row.map(|row| row.value.clone()).or(silent.clone())
+        };
         let (ours, theirs) = (answer(source), answer(target));
         let drills = ours.as_deref() == Some("true");
         Self { question, agree: ours == theirs || !drills && theirs.as_deref() == Some("false"), drills }
     }
 }
 
+/// The question that a control's table answers: one that is silent of blocks without any word takes them as others.
+fn of(question: Question, control: &Control) -> Question {
+    if question == Question::CycleRunsWithoutWords { control.of_wordless_cycles() } else { question }
+}
+
 /// Replaces the code that runs a cycle where the tool stands.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let native = context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some();
     let facts = context.modal_facts(module);
-    let bare_ones = [Question::CycleRunsWithoutAxes, Question::CycleRunsByDepth, Question::CycleRunsByRotary]
-        .map(|question| Bare::of(question, context.source, context.target));
+    let bare_ones = [
+        Question::CycleRunsWithoutAxes,
+        Question::CycleRunsByDepth,
+        Question::CycleRunsByRotary,
+        Question::CycleRunsWithoutWords,
+    ]
+    .map(|question| Bare::of(question, context.source, context.target));
     if native && bare_ones.iter().all(|bare| bare.agree) {
         return;
     }
@@ -83,8 +95,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     && !here
                     && !placed
                     && nc.word(Role::Repeat).is_none();
-                let Bare { question, agree, drills } =
-                    bare_ones[if turns { 2 } else { usize::from(!defines) }];
+                let wordless = defines && !tells_depth(nc, state.op(Group::Plane));
+                let Bare { question, agree, drills } = bare_ones[match (turns, wordless) {
+                    (true, _) => 2,
+                    (_, true) => 3,
+                    _ => usize::from(!defines),
+                }];
                 let asked = here || bare && !agree;
                 // Under compensation the tool stands beside the words.
                 let beside = matches!(state.op(Group::RadiusComp), Some(Op::RadiusLeft | Op::RadiusRight));
@@ -101,10 +117,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 if bare && !context.source.is_same_machine(context.target) {
                     let has = |control: &Control| !turns || control.behaviour(question).is_some();
                     if has(context.source) {
-                        context.rests_on_source(index, span, question);
+                        context.rests_on_source(index, span, of(question, context.source));
                     }
                     if agree && has(context.target) {
-                        context.rests_on_target(index, span, question);
+                        context.rests_on_target(index, span, of(question, context.target));
                     }
                 }
                 let here = here || bare && drills && !agree;

@@ -2,12 +2,14 @@
 //!
 //! Law: a hole goes along the axis of its plane. A control whose cycles run under G17 alone has no such hole, and of a source
 //! that has none it is not known what it does there: the program is refused. Where nobody says whether a control has one, the
-//! program rests on that it has; if the plane depends on the path, it is for review.
+//! program rests on that it has; if the plane depends on the path, it is for review. Holes that are written as moves go along Z
+//! alone.
 
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Behaviour, Control, Machine, Question, Row, Side};
 use crate::ir::{Module, Nc};
+use crate::legalize::cycles::hole_moves;
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
@@ -15,7 +17,7 @@ use crate::text::Span;
 /// True if the library drills and selects planes, and a table says something of it.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let asked = |control: &Control| along_plane(control).is_some();
-    (asked(context.source) || asked(context.target))
+    (asked(context.source) || asked(context.target) || as_moves(context.target))
         && features.any_op(Op::is_cycle)
         && features.any_op(|op| matches!(op, Op::PlaneZx | Op::PlaneYz))
 }
@@ -23,6 +25,11 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// What a control says of the planes of its holes; a lathe's code says the axis, whatever the plane is (docs/lathe.md Q5, Q6, Q9).
 fn along_plane(control: &Control) -> Option<&Behaviour> {
     control.behaviour(Question::CyclePlane).filter(|_| control.machine() == Machine::Mill)
+}
+
+/// True for a mill whose holes are moves.
+fn as_moves(target: &Control) -> bool {
+    target.machine() == Machine::Mill && hole_moves::replaces(target)
 }
 
 /// Reports cycles in other planes.
@@ -42,24 +49,38 @@ fn drills(nc: &Nc, after: &Modal) -> bool {
     nc.ops().any(Op::is_cycle) || goes_on
 }
 
+const OTHER: &str = "a drilling cycle under G18 or G19: for the target holes are written as moves, and those go along Z. Write the moves of the \
+     holes";
+const ON_THE_WAY: &str = "the plane of this drilling cycle depends on the path: make sure that it is G17, as the moves of its holes go along Z";
+
 fn report(context: &mut Context<'_>, index: usize, span: Span, known: bool) {
-    for (control, side) in [(context.source, Side::Source), (context.target, Side::Target)] {
-        let Some(row) = along_plane(control).filter(|row| row.value != "any") else { continue };
-        if !known {
+    if as_moves(context.target) {
+        let code = if known { Code::NoEquivalent } else { Code::Conditional };
+        let what = if known { OTHER } else { ON_THE_WAY };
+        context.add_once(index, what, Diagnostic::new(code, span, what));
+        return;
+    }
+    let sides = [(context.source, Side::Source), (context.target, Side::Target)];
+    let said = sides.into_iter().filter_map(|(control, side)| Some((along_plane(control)?, side)));
+    let said = said.filter(|(row, _)| row.value != "any");
+    if !known {
+        for (_, side) in said.take(1) {
             let what = format!(
                 "the plane of this drilling cycle depends on the path: make sure that it is G17, which the {side}'s cycles need"
             );
             context.add_once(index, "cycle.plane", Diagnostic::new(Code::Conditional, span, what));
-            return;
         }
-        if row.value == "xy" {
-            let source = &row.origin().source;
-            let what = format!(
-                "a drilling cycle under G18 or G19: the {side} drills under G17 alone ({source}). Write the moves of the holes"
-            );
-            context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()));
-            return;
-        }
+        return;
+    }
+    if let Some((row, side)) = said.clone().find(|(row, _)| row.value == "xy") {
+        let source = &row.origin().source;
+        let what = format!(
+            "a drilling cycle under G18 or G19: the {side} drills under G17 alone ({source}). Write the moves of the holes"
+        );
+        context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()));
+        return;
+    }
+    for (_, side) in said {
         match side {
             Side::Source => context.rests_on_source(index, span, Question::CyclePlane),
             Side::Target => context.rests_on_target(index, span, Question::CyclePlane),

@@ -70,7 +70,7 @@ fn is_alone(nc: &Nc, after: &Modal, source: &Control) -> bool {
         || nc.word(Role::CycleR).is_some()
         || nc.word(Role::Repeat).is_some()
         || nc.has(Op::CycleHere)
-        || begins && source.is(Question::CycleRunsWithoutAxes);
+        || begins && source.is(source.of_wordless_cycles());
     let under = begins || after.op(Group::Cycle).is_some_and(Op::is_cycle);
     under && !drills && nc.items.iter().any(is_of_cycle)
 }

@@ -4,7 +4,8 @@
 //! in its word; about 0 both do the same. Side conditions: codes that choose or leave the frame of coordinates may stand
 //! under a rotation, and scaling may stand with a drilling cycle, only where that is known of both controls; where it is
 //! not, the place is for review. Where it ends: a mirror about another coordinate than the work zero is refused where
-//! the target mirrors about the zero. An angle or a factor that is not written, which each control takes from a setting of its
+//! the target mirrors about the zero. The end of mirroring names no axes where a control is not known to take them and the block
+//! ends all. An angle or a factor that is not written, which each control takes from a setting of its
 //! own, is written out where the source's profile has it, and refused where not.
 
 use crate::canon::{Group, Op, Role};
@@ -14,13 +15,16 @@ use crate::ir::analysis::behind::behind;
 use crate::ir::{Expr, Module, Nc, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
+use std::collections::BTreeSet;
 
 const ABOUT: Question = Question::MirrorAbout;
+const OFF: Question = Question::MirrorOffAxes;
 const FRAME: Question = Question::ShapeFrameCodes;
 const SCALE: Question = Question::ScaleReachesCycle;
 
 /// Mirrors about the zero what the source mirrors so, and tells what no source says of shaped coordinates.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let mirrored = mirrored(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             let span = stmt.site.span;
@@ -31,6 +35,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 mirror(nc, index, span, context);
             }
             if let StmtKind::Nc(nc) = &mut stmt.kind {
+                mirror_off(nc, &mirrored, (index, span), context);
                 write_out(nc, context.source);
             }
             if let Some((what, op, role)) = stmt.kind.nc().and_then(from_setting)
@@ -79,6 +84,48 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 const COMPUTED: &str = "the scale factor is computed, and no source says whether a control takes its value or counts parts of it, as it does \
      with a number without a point: make sure that both take the value";
+
+/// The axes that the library mirrors.
+fn mirrored(module: &Module) -> BTreeSet<Role> {
+    let blocks = module.programs.iter().flat_map(|program| &program.blocks);
+    let codes = blocks.flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+    codes.filter(|nc| nc.has(Op::MirrorOn)).flat_map(axes).collect()
+}
+
+fn axes(nc: &Nc) -> impl Iterator<Item = Role> {
+    nc.items.iter().filter_map(|item| match item {
+        NcItem::Word(role, _) => role.is_axis().then_some(*role),
+        NcItem::Op(_) | NcItem::Code(..) => None,
+    })
+}
+
+/// Lets the end of mirroring be that of all axes where it names all, and a control is not known to end those alone that it names.
+fn mirror_off(
+    nc: &mut Nc,
+    mirrored: &BTreeSet<Role>,
+    (index, span): (usize, Span),
+    context: &mut Context<'_>,
+) {
+    let open = |control: &Control| control.behaviour(OFF).is_some_and(|row| row.value != "named");
+    let (ours, theirs) = (open(context.source), open(context.target));
+    let named: BTreeSet<Role> = axes(nc).collect();
+    if !nc.has(Op::MirrorOff) || named.is_empty() || !ours && !theirs {
+        return;
+    }
+    if named.is_superset(mirrored) {
+        nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if role.is_axis()));
+        return;
+    }
+    if context.source.is_same_machine(context.target) {
+        return;
+    }
+    if ours {
+        context.rests_on_source(index, span, OFF);
+    }
+    if theirs {
+        context.rests_on_target(index, span, OFF);
+    }
+}
 
 /// Writes what a block takes from a setting of its control, where the profile has it.
 fn write_out(nc: &mut Nc, control: &Control) {

@@ -115,3 +115,31 @@ fn polar_coordinates_count_from_the_zero_and_under_g91_from_the_tool() {
     assert!(!doubts(&run, unsaid));
     assert!(doubts(&fanuc("O1\nG21G90G17\nG0X0Y0Z5.\nG16Y30.\nM30\n"), unsaid));
 }
+
+/// The Z of each cut that goes down, millimetres.
+fn bottoms(run: &Run) -> Vec<f64> {
+    let cuts = run.events.iter().filter_map(|event| match &event.what {
+        EventKind::Feed { from, to, .. } if to.0[2] < from.0[2] => Some((to.0[2] * 1e6).round() / 1e6),
+        _ => None,
+    });
+    cuts.collect()
+}
+
+#[test]
+fn a_code_of_a_cycle_without_a_word_drills_on_a_haas_alone() {
+    let text = "O1\nG21G90G17\nG0X0Y0Z5.\nG99G81X1.Y1.Z-5.R1.F10.\nG82G98\nX2.\nG80\nM30\n";
+    assert_eq!(bottoms(&fanuc(text)).len(), 2);
+    assert_eq!(bottoms(&haas(text)).len(), 3);
+    let deeper = text.replace("G82G98", "G82G98Z-6.");
+    assert_eq!(bottoms(&fanuc(&deeper)).len(), 3);
+}
+
+#[test]
+fn a_bottom_stays_where_it_was_when_the_retract_plane_moves_by_increments() {
+    // From 20: the plane at 2 and the bottom at -4, then the plane at 3, then both anew.
+    let text =
+        "O1\nG21G90G17\nG0X0Y0Z20.\nG91\nG98G81X1.R-18.Z-6.F10.\nR-17.X1.\nR-16.Z-6.X1.\nX1.\nG80\nM30\n";
+    let first = bottoms(&fanuc(text));
+    let steps: Vec<f64> = first.iter().map(|bottom| ((bottom - first[0]) * 1e6).round() / 1e6).collect();
+    assert_eq!(steps, [0.0, 0.0, 2.0, 2.0]);
+}

@@ -307,6 +307,8 @@ pub(super) struct Runs {
     pub with_place: bool,
     /// True if one drills where the tool stands, if it has none.
     pub without: bool,
+    /// The same of one without any word of an axis or a plane.
+    pub wordless: bool,
     /// True if a block with a new depth or retract plane alone drills where the tool stands.
     pub by_depth: bool,
     /// The return plane where no program names one.
@@ -329,7 +331,8 @@ impl Runs {
         match (nc.ops().any(Op::is_cycle), place) {
             (true, true) => self.with_place,
             (false, true) => true,
-            (true, false) => self.without,
+            (true, false) if depths() || nc.names_axis() => self.without,
+            (true, false) => self.wordless,
             (false, false) => depths() && self.by_depth,
         }
     }

@@ -34,7 +34,7 @@ use crate::text::Span;
 use drill::{Cycle, Drill, Height, Known, Runs, Told, tells, unplaced};
 use flow::{Flow, Vacancies, named_unit, says_motion, step};
 pub(super) use moves::has_moves;
-use moves::{Hole, Part, counts, hole};
+use moves::{Hole, Part, counts, hole, lifts, mixes, of_unplaced};
 use pen::{Pen, push};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -59,6 +59,7 @@ pub(super) fn write(module: &mut Module, context: &mut Context<'_>, only: Option
     let rules = Runs {
         with_place: value(Question::CycleBlockRuns) != Some("false"),
         without: value(Question::CycleRunsWithoutAxes) == Some("true"),
+        wordless: value(context.source.of_wordless_cycles()) == Some("true"),
         by_depth: value(Question::CycleRunsByDepth) == Some("true"),
         // Controls begin so, and nothing in the library changes it.
         returns: (!Features::of(&module.programs).op(Op::ReturnR)).then_some(Op::ReturnInitial),
@@ -116,6 +117,7 @@ struct Writer<'w, 'c> {
 const MIXED: &str = "a drilling cycle is in force on some of the ways to this block, and the target has no cycles: end it with G80 on every way";
 const FROZEN: &str = "the planes of this cycle were told under the other of G90 and G91, and whether they keep their meaning is not \
      known: tell them again in this block";
+const LIFTED: &str = "the retract plane of this cycle moves under G91, and its bottom was told in a block before: write Z again beside R";
 const MOTION: &str = "which interpolation is in force after this cycle is not known, and the target is in rapid traverse: write G0 or G1 \
      in the next move";
 const KEPT: &str =
@@ -228,7 +230,7 @@ impl Writer<'_, '_> {
         }
         let across = || [Role::X, Role::Y].into_iter().filter_map(|role| nc.word(role));
         if begins && across().next().is_none() && !nc.has(Op::CycleHere) {
-            self.context.rests_on_source(self.index, span, Question::CycleRunsWithoutAxes);
+            self.context.rests_on_source(self.index, span, of_unplaced(&nc, self.context.source));
         }
         if !self.rules.drills(&nc) {
             return push(builder, words, site);
@@ -236,15 +238,12 @@ impl Writer<'_, '_> {
         if self.vacant {
             self.review(span, VACANT);
         }
-        if drill
-            .incremental
-            .iter()
-            .any(|told| told.is_some() && *told != modal.op(Group::Distance).map(|op| op == Op::Incremental))
-            && drill.told(Told::Bottom) != drill::Value::None
-            && !self.context.source.is(Question::CyclePlanesFrozen)
-            && !(drill.told(Told::Retract) == drill::Value::None && drill.incremental[1] == Some(false))
-        {
+        let frozen = self.context.source.is(Question::CyclePlanesFrozen);
+        if !frozen && mixes(drill, modal) {
             self.refuse(span, FROZEN);
+        }
+        if lifts(&nc, before, drill) {
+            self.refuse(span, LIFTED);
         }
         let stands = match &before.cycle {
             Cycle::On(drill) => (drill.height, before.z),

@@ -1,9 +1,10 @@
 //! The moves of one hole.
 
-use super::drill::{Drill, Height, Told, Value};
+use super::drill::{Cycle, Drill, Height, Known, Told, Value};
 use crate::canon::{Group, Op, Role};
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::Modal;
-use crate::ir::{BinOp, Expr, NcItem};
+use crate::ir::{BinOp, Expr, Nc, NcItem};
 
 /// One thing that a hole is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +22,31 @@ pub(super) struct Hole {
     /// True where its words are absolute and the program's are not.
     pub switch: bool,
     pub parts: Vec<Part>,
+}
+
+/// What says whether a cycle's own block drills that has no position.
+pub(super) fn of_unplaced(nc: &Nc, source: &Control) -> Question {
+    let told = nc.names_axis() || nc.word(Role::CycleR).is_some();
+    if told { Question::CycleRunsWithoutAxes } else { source.of_wordless_cycles() }
+}
+
+/// True where the planes were told under the other of G90 and G91, or under either.
+pub(super) fn mixes(drill: &Drill, modal: &Modal) -> bool {
+    let now = modal.op(Group::Distance).map(|op| op == Op::Incremental);
+    drill.incremental.iter().any(|told| told.is_some() && *told != now)
+        && drill.told(Told::Bottom) != Value::None
+        && !(drill.told(Told::Retract) == Value::None && drill.incremental[1] == Some(false))
+}
+
+/// True where a block moves the retract plane by increments and leaves the bottom that an increment told: that is a place by
+/// then, and no distance from the new plane. `drill` is the cycle after the block.
+pub(super) fn lifts(nc: &Nc, before: &Known, drill: &Drill) -> bool {
+    let Cycle::On(was) = &before.cycle else { return false };
+    let retract = drill.told(Told::Retract);
+    let moved =
+        nc.word(Role::CycleR).is_some() && (retract != was.told(Told::Retract) || retract == Value::Held);
+    let by_steps = drill.incremental.iter().all(|told| *told != Some(false));
+    moved && by_steps && nc.word(Role::Z).is_none() && was.told(Told::Bottom) != Value::None
 }
 
 /// True for a cycle whose moves are known.
