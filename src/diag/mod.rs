@@ -67,7 +67,7 @@ pub struct Diagnostic {
     pub accepted: Option<Arc<Accepted>>,
 }
 
-/// What a machine profile may say of a code.
+/// What a machine profile may say of a code or a variable.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Asks {
     /// What the source's builder made of it.
@@ -81,6 +81,11 @@ pub enum Asks {
     There {
         /// The name: `chuck.clamp`.
         name: Arc<str>,
+    },
+    /// Whether the source's machine has a variable that its table has not.
+    Variable {
+        /// Its number.
+        number: u32,
     },
     /// A word that it takes, of a code that the profile names.
     Word {

@@ -74,7 +74,7 @@ impl Control {
     }
 
     /// The one condition of several that does not hold, and its first value.
-    fn one_open<'a>(&self, when: &'a str) -> Option<(&'a str, &'a str)> {
+    pub(super) fn one_open<'a>(&self, when: &'a str) -> Option<(&'a str, &'a str)> {
         let holds =
             |name: &str, values: &str| values.split('|').any(|value| self.setting(name) == Some(value));
         let conditions = when.split(" and ").filter_map(|one| one.split_once('='));

@@ -112,6 +112,7 @@ fn read(
         words: plain(tables.words),
         codes: plain(tables.codes).into_iter().flat_map(spell_out).collect(),
         other_codes: Vec::new(),
+        other_system: Vec::new(),
         arguments: plain(tables.arguments),
         settings: plain(tables.settings),
     })

@@ -62,6 +62,9 @@ pub struct Dialect {
     /// G and M codes that it has under another setting.
     #[serde(skip)]
     pub other_codes: Vec<CodeMeaning>,
+    /// System variables that it has under another setting.
+    #[serde(skip)]
+    pub other_system: Vec<SystemVariable>,
     /// Argument letters of macro calls and the local variable each sets.
     pub arguments: Vec<Argument>,
     /// Settings that a machine profile may change, with what they are by default.

@@ -232,7 +232,10 @@ impl Overlay {
         let (codes, others) = codes.partition(|row| here(&row.machine, &row.when, &row.option));
         (dialect.codes, dialect.other_codes) = (codes, others);
         dialect.other_codes.retain(|row| row.when.is_some());
-        dialect.system.retain(|row| here(&row.machine, &row.when, &row.option));
+        let system = std::mem::take(&mut dialect.system).into_iter();
+        let (system, others) = system.partition(|row| here(&row.machine, &row.when, &row.option));
+        (dialect.system, dialect.other_system) = (system, others);
+        dialect.other_system.retain(|row| row.when.is_some() && here(&row.machine, &None, &row.option));
         dialect.words.retain(|row| here(&row.machine, &row.when, &None));
         dialect.forbidden.retain(|row| here(&row.machine, &row.when, &None));
         dialect.variables.retain(|row| has(&row.option));

@@ -36,9 +36,13 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let start = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &begins)) });
     let there = begins_there(survey);
     let start_there = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &there)) });
+    let all = super::variables::all(source, &survey.variables);
+    let more: Option<Answer> = (!survey.variables.is_empty())
+        .then(|| -> Answer { Box::new(move |profile| profile.variables = Some(all.clone())) });
     let answered = with(
         source,
         codes
+            .chain(more)
             .chain(asked(source, target))
             .chain(start)
             .chain(settings(survey, Side::Source))

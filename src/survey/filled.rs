@@ -75,7 +75,10 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     match side {
-        Side::Source => super::site_rows::rows(&mut text, survey),
+        Side::Source => {
+            text = super::variables::asked_in(&text, survey);
+            super::site_rows::rows(&mut text, survey);
+        }
         Side::Target => text = super::there::asked_in(&text, survey),
     }
     match read(&text)? == before {

@@ -1,6 +1,6 @@
 //! A survey for programs. Its keys are a contract.
 
-use super::{AskedCode, AskedSetting, AskedStart, AskedWord, Outcomes, Shape, Survey};
+use super::{AskedCode, AskedSetting, AskedStart, AskedVariables, AskedWord, Outcomes, Shape, Survey};
 use crate::diag::{Code, Severity};
 use crate::dialect::Side;
 use crate::report::{Question, Questions};
@@ -19,6 +19,8 @@ struct Report<'a> {
     start_of_target: &'a [AskedStart],
     settings: Vec<Setting<'a>>,
     words: Vec<Word<'a>>,
+    /// Runs of variables that the table of the source's control has not.
+    variables: &'a [AskedVariables],
     questions: Vec<Asked<'a>>,
     /// What is asked once all of that is answered.
     later: Vec<Asked<'a>>,
@@ -89,6 +91,7 @@ pub fn json(survey: &Survey<'_>) -> String {
                 start_of_target: &survey.start_of_target,
                 settings,
                 words: words.collect(),
+                variables: &survey.variables,
                 questions: all(questions),
                 later: all(later),
                 now: survey.now,

@@ -16,6 +16,7 @@ mod site_rows;
 mod start;
 mod text;
 mod there;
+mod variables;
 mod words;
 
 pub use codes::AskedCode;
@@ -26,6 +27,7 @@ pub use shape::{Missing, Shape};
 pub use start::AskedStart;
 pub use text::text;
 pub use there::AskedThere;
+pub use variables::AskedVariables;
 pub use words::AskedWord;
 
 use crate::diag::{Code, Diagnostic, Severity};
@@ -64,6 +66,8 @@ pub struct Survey<'a> {
     pub words: Vec<AskedWord>,
     /// Names of the source's codes for which the target's profile has no code.
     pub there: Vec<AskedThere>,
+    /// Variables that programs use and the table of their control has not.
+    pub variables: Vec<AskedVariables>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
@@ -134,6 +138,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     settings.extend(digits);
     let words = words::asked(&places, &conversion.programs);
     let there = there::asked(&places, source, &conversion.programs);
+    let variables = variables::asked(&places, source, &conversion.programs);
     for program in &mut conversion.programs {
         let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);
         program.diagnostics.retain(|finding| !codes::asks_code(finding) && !of_shape(finding.code));
@@ -152,6 +157,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         settings,
         words,
         there,
+        variables,
         rest: conversion,
         then: Vec::new(),
         now,

@@ -142,10 +142,30 @@ impl Looked {
     fn tell(&self, index: usize, context: &mut Context<'_>) {
         for (finding, span) in &self.known {
             finding.rest_on_rows(index, *span, context);
-            if let Finding::Other(_) = finding {
-                let (code, what) = finding.told(context, &analysis::Numbers::default(), false);
-                context.add_once(index, &what, Diagnostic::new(code, *span, what.clone()));
-            }
+            let Finding::Other(number) = finding else { continue };
+            // `#[2400+#1]` means the run from #2401.
+            let near = [*number, number.saturating_add(1)].into_iter();
+            let space = context.source.numbered().unwrap_or_default();
+            let under = near.filter_map(|at| Some((at, context.source.system_under(space, at)?))).next();
+            let told = match under {
+                Some((at, (setting, value))) => {
+                    let short = setting.split_once('.').map_or(setting, |(_, short)| short);
+                    let at = named(context.source, at.into());
+                    let what = format!(
+                        "the number of a variable is computed and starts from {at}, which the machine has only where {short} \
+                         is {value}"
+                    );
+                    let help = "look at the machine, and write its value into its profile";
+                    let told = Diagnostic::new(Code::NoEquivalent, *span, what).with_help(help);
+                    told.lacking(format!("{setting}={value}"))
+                }
+                None => {
+                    let (code, what) = finding.told(context, &analysis::Numbers::default(), false);
+                    Diagnostic::new(code, *span, what)
+                }
+            };
+            let what = told.message.clone();
+            context.add_once(index, &what, told);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::place::At;
 use crate::canon::Sys;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::{Control, Question, SystemVariable};
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var, constant_part, shifted};
 use crate::lower::common::constant;
@@ -127,9 +127,22 @@ impl<'a> Lowering<'a> {
             return Some(Expr::Var(var));
         }
         let Some((state, subscripts, row)) = self.control.read_system("#", Some(number)) else {
-            let message = format!("the table of this control has no variable #{number}");
-            let help = "if the machine has it as a variable of its own, name it in 'variables' of its profile, with all others";
-            self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+            let told = match self.control.system_under("#", number) {
+                Some((setting, value)) => {
+                    let short = setting.split_once('.').map_or(setting, |(_, short)| short);
+                    let what = format!("the machine has #{number} only where {short} is {value}");
+                    let help = "look at the machine, and write its value into its profile";
+                    let told = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
+                    told.lacking(format!("{setting}={value}"))
+                }
+                None => {
+                    let what = format!("the table of this control has no variable #{number}");
+                    let help = "if the machine has it as a variable of its own, name it in 'variables' of its profile, with all others";
+                    let told = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
+                    told.asking_for(Asks::Variable { number })
+                }
+            };
+            self.findings.add(told);
             return None;
         };
         self.findings.rest_on(row, span);

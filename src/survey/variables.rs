@@ -1,0 +1,174 @@
+//! Variables that programs use and the table of their control has not: whether the machine has them, its profile says.
+
+use super::Survey;
+use super::filled::{ASKS, TELLS, after_dialect, spliced};
+use super::shape::{NAMED, Places};
+use crate::diag::Asks;
+use crate::dialect::{Control, Profile};
+use crate::library::ProgramReport;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+/// Numbers so near to one another are asked as one run: a shop's variables stand together.
+const NEAR: u32 = 100;
+
+/// A run of variables that the table has not.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct AskedVariables {
+    /// The name before the number.
+    pub name: String,
+    /// The first that programs use.
+    pub first: u32,
+    /// The last that programs use.
+    pub last: u32,
+    /// How many programs wait for one of them.
+    pub programs: usize,
+    /// The first places, as `file:line`.
+    pub places: Vec<String>,
+}
+
+impl AskedVariables {
+    /// The run as a profile has it: `#901011-#901131`.
+    pub fn run(&self) -> String {
+        let Self { name, first, last, .. } = self;
+        if first == last { format!("{name}{first}") } else { format!("{name}{first}-{name}{last}") }
+    }
+
+    /// The run as an answer: variables that keep their values, as most of those that a machine has more of.
+    pub(super) fn entry(&self) -> String {
+        format!("{} retained", self.run())
+    }
+}
+
+/// The variables that programs wait for, in order of their numbers.
+pub(super) fn asked(
+    places: &Places<'_>,
+    source: &Control,
+    programs: &[ProgramReport],
+) -> Vec<AskedVariables> {
+    let Some(name) = source.numbered() else { return Vec::new() };
+    if !source.classes().iter().any(|class| class.name == name && class.class == "retained") {
+        return Vec::new();
+    }
+    let mut found: BTreeMap<u32, (BTreeSet<usize>, Vec<String>)> = BTreeMap::new();
+    for (at, program) in programs.iter().enumerate() {
+        for finding in &program.diagnostics {
+            let Some(Asks::Variable { number }) = finding.asks.as_deref() else { continue };
+            let (waiting, named) = found.entry(*number).or_default();
+            waiting.insert(at);
+            if named.len() < NAMED {
+                named.push(places.at(program.file, finding.span));
+            }
+        }
+    }
+    let is_free = |number: u32| {
+        source.variable_class(name, number).is_none()
+            && source.numbered_state(number).is_none()
+            && source.system_under(name, number).is_none()
+    };
+    let mut runs: Vec<(AskedVariables, BTreeSet<usize>)> = Vec::new();
+    for (number, (waiting, named)) in found {
+        let joins = |last: u32| number - last <= NEAR && (last + 1..number).all(is_free);
+        match runs.last_mut().filter(|(run, _)| joins(run.last)) {
+            Some((run, programs)) => {
+                run.last = number;
+                programs.extend(waiting);
+                let new = named.into_iter().filter(|place| !run.places.contains(place)).collect::<Vec<_>>();
+                run.places.extend(new.into_iter().take(NAMED.saturating_sub(run.places.len())));
+            }
+            None => {
+                let name = name.to_owned();
+                let run = AskedVariables { name, first: number, last: number, programs: 0, places: named };
+                runs.push((run, waiting));
+            }
+        }
+    }
+    runs.into_iter().map(|(run, programs)| AskedVariables { programs: programs.len(), ..run }).collect()
+}
+
+/// All variables of the machine with those that are asked: what `variables` of its profile would be.
+pub(super) fn all(source: &Control, asked: &[AskedVariables]) -> Vec<String> {
+    let stated = source.profile().variables.clone();
+    let own = stated.unwrap_or_else(|| {
+        let mut runs: Vec<(String, u32, u32)> = Vec::new();
+        for class in source.classes().iter().filter(|class| class.class != "letter") {
+            match runs.last_mut() {
+                Some((name, _, last)) if *name == class.name && class.first == last.saturating_add(1) => {
+                    *last = class.last;
+                }
+                _ => runs.push((class.name.clone(), class.first, class.last)),
+            }
+        }
+        runs.into_iter().map(|(name, first, last)| format!("{name}{first}-{name}{last}")).collect()
+    });
+    own.into_iter().chain(asked.iter().map(AskedVariables::entry)).collect()
+}
+
+/// The source's profile with the question of such variables: one line, or more in the list that it has.
+pub(super) fn asked_in(text: &str, survey: &Survey<'_>) -> String {
+    let asked = &survey.variables;
+    if asked.is_empty() {
+        return text.to_owned();
+    }
+    let Ok(profile) = Profile::read(text) else { return text.to_owned() };
+    let quoted = |entries: Vec<String>| {
+        entries.iter().map(|entry| format!("\"{entry}\"")).collect::<Vec<_>>().join(", ")
+    };
+    let mut told = String::new();
+    for run in asked.iter().take(NAMED) {
+        let programs = if run.programs == 1 { "1 program".into() } else { format!("{} programs", run.programs) };
+        let _ = writeln!(told, "{TELLS} {}: {programs}: {}", run.run(), run.places.join(", "));
+    }
+    let about = "variables that the control's table has not: take out what the machine has not; 'common' for 'retained' \
+                 where they are empty after power-on";
+    match profile.place("variables") {
+        None => {
+            let list = quoted(all(survey.controls[0], asked));
+            let line = format!("{told}{ASKS} variables = [{list}] # {about}\n");
+            spliced(text, after_dialect(text, &profile), &line)
+        }
+        Some(place) => {
+            // A line in the list is a comment, whatever stands before it.
+            let at = place.start + 1;
+            let end = if text.get(at..).is_some_and(|rest| rest.starts_with('\n')) { "" } else { "\n" };
+            let list = quoted(asked.iter().map(AskedVariables::entry).collect());
+            spliced(text, at, &format!("\n{ASKS} {list}, # {about}{end}"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::dialect::{Control, Profile, Side};
+    use crate::library::Input;
+    use crate::survey::{filled, survey};
+
+    fn source(text: &str) -> String {
+        let program = "O1\n#1=#404+#472\n#2=#901011\n#901053=#98000\nM30\n";
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: program.into() }];
+        let source = Control::from_profile(text).unwrap();
+        let target = Control::from_profile("dialect = \"haas\"\n").unwrap();
+        filled(&survey(&inputs, &source, Some(&target)), Side::Source, Some(text)).unwrap()
+    }
+
+    #[test]
+    fn variables_that_the_table_lacks_are_asked_in_one_line() {
+        let text = source("dialect = \"fanuc\"\n");
+        let lines: Vec<&str> = text.lines().filter(|line| line.contains("variables = [")).collect();
+        let list = "#? variables = [\"#1-#33\", \"#100-#199\", \"#500-#999\", \"#404-#472 retained\", \"#98000 retained\", \
+                    \"#901011-#901053 retained\"] # variables";
+        assert!(lines.len() == 1 && lines[0].starts_with(list), "{text}");
+        assert_eq!(source(&text), text);
+        let opened = text.replace("#? variables", "variables");
+        assert!(!source(&opened).contains("variables that"), "{}", source(&opened));
+    }
+
+    #[test]
+    fn what_the_profile_names_stays_and_the_rest_is_asked_in_its_list() {
+        let text = source("dialect = \"fanuc\"\nvariables = [\"#1-#33\", \"#400-#499 common\"]\n");
+        assert!(text.contains("#? \"#98000 retained\", \"#901011-#901053 retained\", # variables"), "{text}");
+        assert_eq!(Profile::read(&text).unwrap().variables.unwrap().len(), 2);
+        assert_eq!(source(&text), text);
+    }
+}
