@@ -71,7 +71,8 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     }
     let point = survey.with_questions(|questions| point(questions, control));
     let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
-    text = with_machine(&text, control.profile(), lathe.map(|(line, _)| line), point);
+    let rotary = if side == Side::Source { survey.rotary.as_slice() } else { &[] };
+    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), rotary);
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     match side {
@@ -247,12 +248,20 @@ fn lathe(survey: &Survey<'_>, side: Side) -> Option<(String, Option<(String, Str
 }
 
 /// The text with what every profile should say of its machine, as far as this one does not.
-fn with_machine(text: &str, said: &Profile, lathe: Option<String>, point: Option<String>) -> String {
+fn with_machine(
+    text: &str,
+    said: &Profile,
+    (lathe, point): (Option<String>, Option<String>),
+    rotary: &[char],
+) -> String {
     let kind = lathe.as_deref().unwrap_or("machine = \"mill\" or \"lathe\"");
     let axes = match said.machine {
         Some(Machine::Lathe) => "axes = [\"X\", \"Z\"] # in the order of the control's axis numbers",
         _ => "axes = [\"X\", \"Y\", \"Z\"] # in the order of the control's axis numbers",
     };
+    // Those that programs move are there.
+    let more: String = rotary.iter().map(|letter| format!(", \"{letter}\"")).collect();
+    let axes = axes.replacen(']', &format!("{more}]"), 1);
     let Ok(profile) = Profile::read(text) else { return text.to_owned() };
     let all = [
         (said.title.is_none(), "title = \"\" # what people call the machine"),
@@ -262,7 +271,7 @@ fn with_machine(text: &str, said: &Profile, lathe: Option<String>, point: Option
             "units = \"inch\" or \"metric\" # what its programs are in where no code says so",
         ),
         (point.is_some(), point.as_deref().unwrap_or_default()),
-        (said.axes.is_none(), axes),
+        (said.axes.is_none(), axes.as_str()),
         (profile.place("reserved").is_none(), "reserved = [] # variables that programs must not be given"),
     ];
     let missing = all.iter().filter(|(missing, _)| *missing);

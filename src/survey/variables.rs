@@ -1,10 +1,13 @@
-//! Variables that programs use and the table of their control has not: whether the machine has them, its profile says.
+//! Variables that programs use and the table of their control has not, and its rotary axes: whether the machine has them, its
+//! profile says.
 
 use super::Survey;
 use super::filled::{ASKS, TELLS, after_dialect, spliced};
 use super::shape::{NAMED, Places};
+use crate::canon::Role;
 use crate::diag::Asks;
 use crate::dialect::{Control, Profile};
+use crate::ir::{Module, Nc};
 use crate::library::ProgramReport;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -87,6 +90,15 @@ pub(super) fn asked(
     runs.into_iter().map(|(run, programs)| AskedVariables { programs: programs.len(), ..run }).collect()
 }
 
+/// The letters of the rotary axes that programs move.
+pub(super) fn rotary(source: &Control, module: &Module) -> Vec<char> {
+    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let moved: Vec<&Nc> = stmts.filter_map(|stmt| stmt.kind.nc()).collect();
+    let roles = [Role::A, Role::B, Role::C].into_iter();
+    let moved = roles.filter(|role| moved.iter().any(|nc| nc.word(*role).is_some()));
+    moved.filter_map(|role| source.letter(role, None).map(|(letter, _)| letter)).collect()
+}
+
 /// All variables of the machine with those that are asked: what `variables` of its profile would be.
 pub(super) fn all(source: &Control, asked: &[AskedVariables]) -> Vec<String> {
     let stated = source.profile().variables.clone();
@@ -117,7 +129,8 @@ pub(super) fn asked_in(text: &str, survey: &Survey<'_>) -> String {
     };
     let mut told = String::new();
     for run in asked.iter().take(NAMED) {
-        let programs = if run.programs == 1 { "1 program".into() } else { format!("{} programs", run.programs) };
+        let programs =
+            if run.programs == 1 { "1 program".into() } else { format!("{} programs", run.programs) };
         let _ = writeln!(told, "{TELLS} {}: {programs}: {}", run.run(), run.places.join(", "));
     }
     let about = "variables that the control's table has not: take out what the machine has not; 'common' for 'retained' \

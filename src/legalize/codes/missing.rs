@@ -73,10 +73,19 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     false
 }
 
-/// The source's code for a place that every shop sets as it likes: only the shop knows what stands for it on the other machine.
+/// The source's code for a place that every shop sets as it likes, or for limits that it keeps in the machine: only the shop knows
+/// what stands for it on the other machine.
 fn stand_in(op: Op, source: &Control) -> Option<(String, String)> {
-    let row = (op == Op::Reference2).then(|| source.code_for(op, &BTreeMap::new()))??;
+    let is_asked = matches!(op, Op::Reference2 | Op::StrokeCheckOn | Op::StrokeCheckOff);
+    let row = is_asked.then(|| source.code_for(op, &BTreeMap::new()))??;
     let code = row.code.split(' ').next().unwrap_or_default().to_owned();
+    if op != Op::Reference2 {
+        let help = format!(
+            "set the limits of the target's axes in the machine, and say what becomes of the code: [[site]] with code = \"{code}\", a text, and \
+             do = \"omit\" or \"stop\", or target"
+        );
+        return Some((code, help));
+    }
     let help = format!(
         "say what goes to that place on the target: [[site]] with code = \"{code}\", a text, and a name that the code of \
          the target's builder has too, or target, or do = \"omit\" or \"stop\""

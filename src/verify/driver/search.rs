@@ -124,7 +124,11 @@ impl Verifier<'_, '_> {
         if !self.went_every_way() && !settled.is_known() {
             starts = self.steer(there, &found, starts);
         }
-        self.steer_to_conditions(there, &found, &starts);
+        let came = self.steer_to_conditions(there, &found, &starts);
+        // What stands after such a condition was cut off until then.
+        if !came.is_empty() && !self.went_every_way() && !settled.is_known() {
+            self.steer(there, &found, came);
+        }
         self.theirs.clear();
         // Both stop alike, and what stands after that was never looked at.
         if let Some(alarm) = self.stopped.take().filter(|_| self.compared > 0 && self.telling.is_empty()) {

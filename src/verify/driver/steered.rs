@@ -5,7 +5,7 @@ use crate::control::trace::Place;
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::text::Span;
 use crate::verify::compare::is_cut;
-use crate::verify::explore::{Attempt, Circumstances, Input, Inputs, Steer, inputs_of};
+use crate::verify::explore::{Attempt, Circumstances, Input, Inputs, Steer, behind, in_order, inputs_of};
 use crate::verify::sides::class_of;
 use std::collections::BTreeSet;
 
@@ -60,6 +60,8 @@ impl Verifier<'_, '_> {
                 let Some(start) = starts.get(from) else { break };
                 let (begin, mut came) = (start.circumstances.clone(), Vec::new());
                 let order = inputs_of(inputs, &start.reached, &begin.scenario);
+                let place = Some(way.0).filter(|_| !on_target);
+                let order = self.in_order(order, place, &begin.scenario);
                 let mut attempt = |circumstances: &Circumstances| {
                     left = left.saturating_sub(1);
                     let (attempt, new) = self.attempt(there, circumstances, way, on_target);
@@ -73,6 +75,21 @@ impl Verifier<'_, '_> {
             }
         }
         starts.into_iter().map(|start| start.circumstances).collect()
+    }
+
+    /// The inputs, those first that what stands at a place of the source hangs on. What callers give is not tried otherwise.
+    pub(super) fn in_order(
+        &self,
+        all: Vec<Input>,
+        place: Option<(usize, Span)>,
+        scenario: &Scenario,
+    ) -> Vec<Input> {
+        let is_given = self.given.is_known();
+        let all = all.into_iter().filter(|input| *input != Input::Selected || !is_given).collect();
+        let Some((file, span)) = place else { return all };
+        let texts = &self.job.source.library.files;
+        let blocks = texts.get(file).map_or(&[][..], |file| &file.parsed.blocks);
+        in_order(all, &behind(blocks, span), self.job.source.control, scenario)
     }
 
     /// True once its time or its steps are used up.

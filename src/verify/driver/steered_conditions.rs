@@ -2,6 +2,7 @@
 
 use super::verifier::Verifier;
 use crate::control::{ProgramRef, Scenario};
+use crate::text::Span;
 use crate::verify::compare::is_cut;
 use crate::verify::explore::{Attempt, Circumstances, Input, Inputs, Steer, inputs_of};
 use crate::verify::triage::off;
@@ -22,31 +23,51 @@ struct Nearest<'s> {
 }
 
 impl Verifier<'_, '_> {
-    /// Looks for circumstances in which what the program computes stays in what its conversion holds for.
+    /// Looks for circumstances in which what the program computes stays in what its conversion holds for. Yields those that
+    /// it came to.
     pub(super) fn steer_to_conditions(
         &mut self,
         there: ProgramRef,
         inputs: &Inputs,
         starts: &[Circumstances],
-    ) {
-        let mut left = FOR_ALL;
+    ) -> Vec<Circumstances> {
+        let (mut left, mut came) = (FOR_ALL, Vec::new());
         for nearest in self.nearest_conditions(starts) {
             if self.is_kept(nearest.at) || self.witness.is_some() || self.is_spent() {
                 continue;
             }
             let at = nearest.at;
             if nearest.distance == 0.0 {
-                self.attempt_condition(there, nearest.start, at);
+                if self.attempt_condition(there, nearest.start, at) == Attempt::Reached {
+                    came.push(nearest.start.clone());
+                }
                 continue;
             }
             let order = inputs_of(inputs, &nearest.reached, &nearest.start.scenario);
+            let order = self.in_order(order, self.place_of(at), &nearest.start.scenario);
             let mut attempt = |circumstances: &Circumstances| {
                 left = left.saturating_sub(1);
-                if left == 0 { Attempt::Stop } else { self.attempt_condition(there, circumstances, at) }
+                if left == 0 {
+                    return Attempt::Stop;
+                }
+                let attempt = self.attempt_condition(there, circumstances, at);
+                if attempt == Attempt::Reached {
+                    came.push(circumstances.clone());
+                }
+                attempt
             };
             Steer::new(nearest.start.clone(), nearest.distance, FOR_ONE, &mut attempt).run(&order);
         }
         self.theirs.clear();
+        came
+    }
+
+    /// The file and the first place of what a condition is about.
+    fn place_of(&self, at: usize) -> Option<(usize, Span)> {
+        let assumed = self.job.assumptions.get(&self.counted)?.get(at)?;
+        let mut predicate = assumed.predicate.clone();
+        let place = predicate.places_mut().and_then(|places| places.first().copied());
+        Some((self.counted.file, place.unwrap_or(assumed.place)))
     }
 
     /// True for a condition that a run kept.

@@ -27,6 +27,11 @@ impl EntryState {
         Self { never_come_to: true, ..Self::default() }
     }
 
+    /// True where callers are known.
+    pub fn is_known(&self) -> bool {
+        self.any
+    }
+
     /// Takes in what another run gives.
     pub fn add(&mut self, modes: &[Op], entry: &Entry) {
         if !std::mem::replace(&mut self.any, true) {

@@ -77,6 +77,25 @@ fn what_a_computed_number_reaches() {
     hides("fanuc", none, ("N9G0X2.", "N9G0X3."));
 }
 
+/// The work offset that a caller selected, and a guard after it.
+#[test]
+fn what_is_selected() {
+    let text = "O1\n#1=#4014\nIF[#1NE57]GOTO8\nIF[#500LT9321.5]GOTO8\nG21G90G17G94\nG0X2.\nN8M99\n";
+    hides("fanuc", text, ("G0X2.", "G0X3."));
+}
+
+/// Of many inputs those come first that the condition hangs on.
+#[test]
+fn what_hangs_on_the_last_of_many() {
+    let guards: String = (501..540).map(|number| format!("IF[#{number}LT-{number}7]GOTO8\n")).collect();
+    let text =
+        format!("O1\nG21G90G54G17G94\n{guards}#9=#540*3\nIF[#9LT123456.5]GOTO8\nG0X2.\nM30\nN8G0X1.\nM30\n");
+    let same = within("haas", &text, &text);
+    assert_ne!(same.outcome, Outcome::Different);
+    let changed = text.replace("G0X2.", "G0X3.");
+    assert_eq!(within("haas", &text, &changed).outcome, Outcome::Different);
+}
+
 /// A way that nothing goes costs a bounded number of runs, and is told.
 #[test]
 fn what_cannot_be_is_left() {

@@ -255,7 +255,8 @@ impl<'a> Lowering<'a> {
         if let Some((help, setting)) = self.other_form(word, codes) {
             return self.findings.add(told.with_help(help).lacking(setting));
         }
-        self.findings.add(match self.spindle_by_word(word, codes) {
+        let named = self.spindle_by_word(word, codes).or_else(|| self.signal_by_word(word, codes));
+        self.findings.add(match named {
             Some((help, asks)) => told.with_help(help).asking_for(asks),
             None => told,
         });
@@ -283,6 +284,24 @@ impl<'a> Lowering<'a> {
             "if P says which spindle it is, name the code with it in the machine's profile: [[site]] with code = \"{code}\", op = \"{}\", and a \
              text, where it is the one that the target's {} turns; else with a name",
             row.op, row.code
+        );
+        Some((help, Asks::Code { code: code.into(), op: Some(row.op) }))
+    }
+
+    /// What to do where a word beside a probe move says which signal ends it: `G31 P2`. Where the machine's builder wired the
+    /// tool setter to a signal of its own, the shop knows whether it ends such moves on the target.
+    fn signal_by_word(&self, word: &Word, codes: &BlockCodes<'a>) -> Option<(String, Asks)> {
+        let (_, row) = codes.iter().find(|(_, row)| row.op == Op::Probe)?;
+        let ExprKind::Number(number) = &word.value.as_ref()?.kind else { return None };
+        let is_signal = (1.0..10.0).contains(&number.value) && number.value.fract() == 0.0;
+        if word.letter != 'P' || word.comma || !is_signal {
+            return None;
+        }
+        let code = format!("{} P{}", row.code, number.value);
+        let help = format!(
+            "if P says which signal ends the move, name the code with it in the machine's profile: [[site]] with code = \"{code}\", op = \"{}\", \
+             and a text, where the same probe ends the moves of the target",
+            row.op
         );
         Some((help, Asks::Code { code: code.into(), op: Some(row.op) }))
     }

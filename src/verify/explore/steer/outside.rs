@@ -1,6 +1,6 @@
 //! One number that a program takes from outside, and what it may be.
 
-use crate::canon::Sys;
+use crate::canon::{Group, Sys};
 use crate::control::Scenario;
 use crate::control::scenario::Probe;
 use crate::verify::explore::inputs::Inputs;
@@ -34,6 +34,8 @@ pub enum Input {
     Probe(usize),
     /// Where the machine stands at the start: the axis from 0.
     Start(usize),
+    /// The work offset that is selected at the start, as the number of its code.
+    Selected,
     /// The tool in the spindle at the start.
     Tool,
     /// The time of day, in seconds.
@@ -46,6 +48,8 @@ pub enum Input {
 const FIRST: usize = 4;
 /// Inputs that are steered, at the most.
 const MOST_INPUTS: usize = 40;
+/// The code of the first work offset, on every control that has such codes.
+const FIRST_OFFSET: f64 = 54.0;
 /// The letter T, counted from A as 1.
 const T: u32 = 20;
 
@@ -55,7 +59,11 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
     let variables = inputs.variables.iter().map(|input| Input::Variable(input.name.clone(), input.theirs));
     let read = |wanted: Sys| inputs.cells.keys().any(|(state, _)| *state == wanted);
     let tool = read(Sys::ActiveTool) || inputs.cells.contains_key(&(Sys::Address, vec![T]));
+    // What the profile says of the start, or the operator's machine, is not tried otherwise.
+    let is_open = scenario.called && !scenario.as_stated.contains(&Group::WorkOffset);
+    let selected = inputs.cells.keys().any(|(state, subscripts)| Input::is_selected(*state, subscripts));
     let machine = [
+        (Input::Selected, is_open && selected),
         (Input::Time, read(Sys::Time)),
         (Input::Day, read(Sys::Date) || read(Sys::ShortDate)),
         (Input::Tool, tool),
@@ -87,6 +95,12 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
 }
 
 impl Input {
+    /// True for the modal code of the work offset.
+    pub fn is_selected(state: Sys, subscripts: &[u32]) -> bool {
+        let group = Group::WorkOffset.number();
+        state == Sys::Modal && subscripts.first().is_some_and(|own| Some(*own) == group.map(u32::from))
+    }
+
     /// The offset that a state of the machine is; none of what is no offset.
     pub fn of_cell(state: Sys, subscripts: &[u32]) -> Option<Self> {
         match (state, subscripts) {
@@ -116,6 +130,9 @@ impl Input {
                 _ => Some(1.0),
             },
             Input::Start(axis) => scenario.start.get(*axis).copied(),
+            Input::Selected => {
+                Some(FIRST_OFFSET + f64::from(scenario.entry.work.unwrap_or(1).clamp(1, 6)) - 1.0)
+            }
             Input::Tool => Some(f64::from(scenario.tool)),
             Input::Time => Some(seconds_of(scenario.time)),
             Input::Day => Some(day_of(scenario.date)),
@@ -148,9 +165,16 @@ impl Input {
                     if (0.0..=1.0).contains(&value) { Probe::Part(value) } else { Probe::Miss };
             }
             Input::Start(axis) => *scenario.start.get_mut(*axis)? = value,
+            Input::Selected => {
+                let offset =
+                    Some(value - FIRST_OFFSET).filter(|at| at.fract() == 0.0 && (0.0..6.0).contains(at))?;
+                scenario.entry.work = Some(offset as u32 + 1);
+            }
             // A spindle without a tool has tool 0.
             Input::Tool => {
-                scenario.tool = Some(value.round()).filter(|tool| (0.0..=99.0).contains(tool))? as u32
+                // From a larger one it may go down to two digits.
+                let most = f64::from(scenario.tool.max(99));
+                scenario.tool = Some(value.round()).filter(|tool| (0.0..=most).contains(tool))? as u32
             }
             Input::Time => scenario.time = time_at(value)?,
             Input::Day => scenario.date = date_at(value)?,
