@@ -73,8 +73,17 @@ impl Control {
         self.dialect.other_codes.iter().filter(takes).find_map(|row| self.one_open(row.when.as_deref()?))
     }
 
+    /// The first condition of several that does not hold, and its first value.
+    pub(super) fn first_open<'a>(&self, when: &'a str) -> Option<(&'a str, &'a str)> {
+        let mut conditions = when.split(" and ").filter_map(|one| one.split_once('='));
+        let holds =
+            |name: &str, values: &str| values.split('|').any(|value| self.setting(name) == Some(value));
+        let (name, values) = conditions.find(|(name, values)| !holds(name, values))?;
+        Some((name, values.split('|').next().unwrap_or_default()))
+    }
+
     /// The one condition of several that does not hold, and its first value.
-    pub(super) fn one_open<'a>(&self, when: &'a str) -> Option<(&'a str, &'a str)> {
+    fn one_open<'a>(&self, when: &'a str) -> Option<(&'a str, &'a str)> {
         let holds =
             |name: &str, values: &str| values.split('|').any(|value| self.setting(name) == Some(value));
         let conditions = when.split(" and ").filter_map(|one| one.split_once('='));

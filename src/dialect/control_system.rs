@@ -19,18 +19,21 @@ impl Control {
     }
 
     /// The setting, and its value, under which a number would be a system variable, where it is none as the control is set;
-    /// none where the profile says another value.
-    pub fn system_under(&self, name: &str, number: u32) -> Option<(&str, &str)> {
+    /// true where the profile says another value.
+    pub fn system_under(&self, name: &str, number: u32) -> Option<(&str, &str, bool)> {
         let rows = self.dialect.other_system.iter();
-        let mut rows = rows.filter(|row| row.name == name && row.subscripts_of(number).is_some());
-        let (setting, value) = rows.find_map(|row| self.one_open(row.when.as_deref()?))?;
-        let profile = self.profile();
-        let stated = match setting.split_once('.') {
-            Some(("parameter", short)) => profile.parameters.contains_key(short),
-            Some(("setting", short)) => profile.settings.contains_key(short),
-            _ => false,
-        };
-        (!stated).then_some((setting, value))
+        let rows = rows.filter(|row| row.name == name && row.subscripts_of(number).is_some());
+        let open = rows.filter_map(|row| {
+            let (setting, value) = self.first_open(row.when.as_deref()?)?;
+            let profile = self.profile();
+            let stated = match setting.split_once('.') {
+                Some(("parameter", short)) => profile.parameters.contains_key(short),
+                Some(("setting", short)) => profile.settings.contains_key(short),
+                _ => false,
+            };
+            Some((setting, value, stated))
+        });
+        open.min_by_key(|(.., stated)| *stated)
     }
 
     /// As [`Control::read_system`], of all numbers of a name up to a last one: in one walk over the rows.

@@ -2,6 +2,7 @@
 
 use super::filled::{ASKS, TELLS, plain};
 use super::{AskedCode, Survey};
+use crate::canon::Op;
 use std::fmt::Write as _;
 
 /// Puts a row to fill in for each code. With a target one answer is enough: its code, in the source's profile alone.
@@ -37,6 +38,10 @@ fn row(text: &mut String, code: &AskedCode, goes: bool) {
     let how = if code.block.contains(&code.code) { "as in" } else { "goes with" };
     let _ = writeln!(text, "{ASKS} text = \"{said}\" # {how}: {}", plain(&code.block));
     let _ = match (code.op, goes) {
+        (Some(op @ Op::Probe), _) => writeln!(
+            text,
+            "{ASKS} op = \"{op}\" # where the probe of this signal ends the moves of the target's code too; else do = \"alarm\" in its place"
+        ),
         (Some(op), _) => writeln!(
             text,
             "{ASKS} op = \"{op}\" # where P says the spindle that the target's code turns too; else name = \"\" in its place"

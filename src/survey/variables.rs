@@ -177,6 +177,24 @@ mod tests {
         assert!(!source(&opened).contains("variables that"), "{}", source(&opened));
     }
 
+    /// What the machine has under another setting is a question of that setting.
+    #[test]
+    fn what_a_setting_brings_is_no_variable_of_the_machine() {
+        let program = "O1\n#1=#2401\n#2=#[2600+#4120]\nM30\n";
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: program.into() }];
+        let target = Control::from_profile("dialect = \"haas\"\n").unwrap();
+        let open = |settings: &str| {
+            let text = format!("dialect = \"fanuc\"\n{settings}");
+            let source = Control::from_profile(&text).unwrap();
+            let found = survey(&inputs, &source, Some(&target));
+            assert_eq!(found.variables, [], "{settings}");
+            filled(&found, Side::Source, Some(&text)).unwrap()
+        };
+        assert!(open("[settings]\noffset_memory = \"C\"\n").contains("#? 6000.3 = "));
+        assert!(!open("[parameters]\n6000.3 = 0\n[settings]\noffset_memory = \"C\"\n").contains("#? 6000.3"));
+        open("");
+    }
+
     #[test]
     fn what_the_profile_names_stays_and_the_rest_is_asked_in_its_list() {
         let text = source("dialect = \"fanuc\"\nvariables = [\"#1-#33\", \"#400-#499 common\"]\n");

@@ -148,7 +148,7 @@ impl Looked {
             let space = context.source.numbered().unwrap_or_default();
             let under = near.filter_map(|at| Some((at, context.source.system_under(space, at)?))).next();
             let told = match under {
-                Some((at, (setting, value))) => {
+                Some((at, (setting, value, stated))) => {
                     let short = setting.split_once('.').map_or(setting, |(_, short)| short);
                     let at = named(context.source, at.into());
                     let what = format!(
@@ -157,7 +157,7 @@ impl Looked {
                     );
                     let help = "look at the machine, and write its value into its profile";
                     let told = Diagnostic::new(Code::NoEquivalent, *span, what).with_help(help);
-                    told.lacking(format!("{setting}={value}"))
+                    if stated { told } else { told.lacking(format!("{setting}={value}")) }
                 }
                 None => {
                     let (code, what) = finding.told(context, &analysis::Numbers::default(), false);

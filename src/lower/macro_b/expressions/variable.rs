@@ -128,12 +128,12 @@ impl<'a> Lowering<'a> {
         }
         let Some((state, subscripts, row)) = self.control.read_system("#", Some(number)) else {
             let told = match self.control.system_under("#", number) {
-                Some((setting, value)) => {
+                Some((setting, value, stated)) => {
                     let short = setting.split_once('.').map_or(setting, |(_, short)| short);
                     let what = format!("the machine has #{number} only where {short} is {value}");
                     let help = "look at the machine, and write its value into its profile";
                     let told = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
-                    told.lacking(format!("{setting}={value}"))
+                    if stated { told } else { told.lacking(format!("{setting}={value}")) }
                 }
                 None => {
                     let what = format!("the table of this control has no variable #{number}");

@@ -98,7 +98,7 @@ impl Input {
     /// True for the modal code of the work offset.
     pub fn is_selected(state: Sys, subscripts: &[u32]) -> bool {
         let group = Group::WorkOffset.number();
-        state == Sys::Modal && subscripts.first().is_some_and(|own| Some(*own) == group.map(u32::from))
+        state == Sys::Modal && subscripts.first().is_some_and(|own| Some(*own) == group)
     }
 
     /// The offset that a state of the machine is; none of what is no offset.
