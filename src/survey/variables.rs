@@ -174,7 +174,7 @@ mod tests {
         assert!(lines.len() == 1 && lines[0].starts_with(list), "{text}");
         assert_eq!(source(&text), text);
         let opened = text.replace("#? variables", "variables");
-        assert!(!source(&opened).contains("variables that"), "{}", source(&opened));
+        assert!(!source(&opened).contains("#? variables"), "{}", source(&opened));
     }
 
     /// What the machine has under another setting is a question of that setting.
@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn what_the_profile_names_stays_and_the_rest_is_asked_in_its_list() {
-        let text = source("dialect = \"fanuc\"\nvariables = [\"#1-#33\", \"#400-#499 common\"]\n");
+        let text = source("dialect = \"fanuc\"\nvariables = [\"#500-#999\", \"#400-#499 common\"]\n");
         assert!(text.contains("#? \"#98000 retained\", \"#901011-#901053 retained\", # variables"), "{text}");
         assert_eq!(Profile::read(&text).unwrap().variables.unwrap().len(), 2);
         assert_eq!(source(&text), text);
