@@ -197,9 +197,10 @@ mod tests {
 
     #[test]
     fn what_the_profile_names_stays_and_the_rest_is_asked_in_its_list() {
-        let text = source("dialect = \"fanuc\"\nvariables = [\"#500-#999\", \"#400-#499 common\"]\n");
+        let list = "\"#1-#33\", \"#500-#999\", \"#400-#499 common\"";
+        let text = source(&format!("dialect = \"fanuc\"\nvariables = [{list}]\n"));
         assert!(text.contains("#? \"#98000 retained\", \"#901011-#901053 retained\", # variables"), "{text}");
-        assert_eq!(Profile::read(&text).unwrap().variables.unwrap().len(), 2);
+        assert_eq!(Profile::read(&text).unwrap().variables.unwrap().len(), 3);
         assert_eq!(source(&text), text);
     }
 }

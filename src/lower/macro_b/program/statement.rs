@@ -16,7 +16,8 @@ impl<'a> Lowering<'a> {
         match &item.kind {
             ItemKind::Assign { target, value, by_sign: false } => {
                 let text = comment(rest).map(|span| comment_text(span, self.source));
-                let Some(target) = self.target_place(target) else { return };
+                // What is wrong with the value is told too.
+                let target = self.target_place(target);
                 let bracket = matches!(value.kind, ExprKind::Group(_) | ExprKind::Plus(_));
                 let value = self.expr(value, At::Value);
                 if bracket
@@ -25,7 +26,9 @@ impl<'a> Lowering<'a> {
                 {
                     self.unknown_behaviour(Question::BracketCopiesVacancy, item.span);
                 }
-                self.assign(target, value, text, site);
+                if let Some(target) = target {
+                    self.assign(target, value, text, site);
+                }
             }
             ItemKind::If { condition, then, bare, body } => {
                 self.if_statement(condition, *then, *bare, body, item.span, site);
