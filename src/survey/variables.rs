@@ -133,7 +133,7 @@ pub(super) fn asked_in(text: &str, survey: &Survey<'_>) -> String {
             if run.programs == 1 { "1 program".into() } else { format!("{} programs", run.programs) };
         let _ = writeln!(told, "{TELLS} {}: {programs}: {}", run.run(), run.places.join(", "));
     }
-    let about = "variables that the control's table has not: take out what the machine has not; 'common' for 'retained' \
+    let about = "variables that the control's table does not have: take out what the machine does not have; 'common' for 'retained' \
                  where they are empty after power-on";
     match profile.place("variables") {
         None => {
