@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How many programs of each dialect and policy are tried where nothing else is said.
-const PROGRAMS: u64 = 3;
+const PROGRAMS: u64 = 2;
 const SEED: u64 = 20_261;
 /// Programs with faults that are printed.
 const SHOWN: usize = 24;

@@ -1,8 +1,8 @@
 //! Drilling cycles in another plane than the first, where a control drills in that alone.
 //!
 //! Law: a hole goes along the axis of its plane. A control whose cycles run under G17 alone has no such hole, and of a source
-//! that has none it is not known what it does there: the program is refused. Where nobody says whether a control has one, the
-//! program rests on that it has; if the plane depends on the path, it is for review. Holes that are written as moves go along Z
+//! that has none it is not known what it does there: the program is refused. If the plane depends on the path, it is for review.
+//! Where nobody says whether a control has one, the program rests on that it has. Holes that are written as moves go along Z
 //! alone.
 
 use crate::canon::{Group, Op};
@@ -63,21 +63,20 @@ fn report(context: &mut Context<'_>, index: usize, span: Span, known: bool) {
     let sides = [(context.source, Side::Source), (context.target, Side::Target)];
     let said = sides.into_iter().filter_map(|(control, side)| Some((along_plane(control)?, side)));
     let said = said.filter(|(row, _)| row.value != "any");
-    if !known {
-        for (_, side) in said.take(1) {
+    if let Some((row, side)) = said.clone().find(|(row, _)| row.value == "xy") {
+        let source = &row.origin().source;
+        let (code, what) = if known {
+            let what = format!(
+                "a drilling cycle under G18 or G19: the {side} drills under G17 alone ({source}). Write the moves of the holes"
+            );
+            (Code::NoEquivalent, what)
+        } else {
             let what = format!(
                 "the plane of this drilling cycle depends on the path: make sure that it is G17, which the {side}'s cycles need"
             );
-            context.add_once(index, "cycle.plane", Diagnostic::new(Code::Conditional, span, what));
-        }
-        return;
-    }
-    if let Some((row, side)) = said.clone().find(|(row, _)| row.value == "xy") {
-        let source = &row.origin().source;
-        let what = format!(
-            "a drilling cycle under G18 or G19: the {side} drills under G17 alone ({source}). Write the moves of the holes"
-        );
-        context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()));
+            (Code::Conditional, what)
+        };
+        context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
         return;
     }
     for (_, side) in said {

@@ -58,10 +58,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let lacks = !has(context.target, Op::CycleTapRigid);
     let (all, by_cycle) = (always(context.source), by_cycle(context.target));
     let (plain, coded) = (always(context.target), has(context.target, Op::RigidTaps));
+    let rigid = context.features.op(Op::CycleTapRigid);
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         let waits = program.blocks.iter().any(ends_waiting);
-        let readies = readies(&program.blocks);
+        let readies = readies(&program.blocks, rigid);
         let mut found = Vec::new();
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
@@ -141,8 +142,9 @@ fn ends_waiting(block: &Block) -> bool {
     waits
 }
 
-/// The codes that get the spindle ready for a rigid tap and are followed, in the text, by another tap or by none.
-fn readies(blocks: &[Block]) -> Vec<crate::text::Span> {
+/// The codes that get the spindle ready for a rigid tap and are followed, in the text, by another tap; or by none, if the library
+/// has no rigid one: that of a subroutine may stand before the code.
+fn readies(blocks: &[Block], rigid: bool) -> Vec<crate::text::Span> {
     let mut open = None;
     let mut found = Vec::new();
     for stmt in blocks.iter().flat_map(|block| &block.stmts) {
@@ -154,6 +156,6 @@ fn readies(blocks: &[Block]) -> Vec<crate::text::Span> {
             found.extend(open.take().filter(|_| !nc.has(Op::CycleTapRigid)));
         }
     }
-    found.extend(open);
+    found.extend(open.filter(|_| !rigid));
     found
 }
