@@ -57,6 +57,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let speeds = OverCalls::of(module, &Speeds);
     let lacks = !has(context.target, Op::CycleTapRigid);
     let (all, by_cycle) = (always(context.source), by_cycle(context.target));
+    // A parameter may make every tap of the source rigid.
+    let said = context.source.behaviour(Question::TapRigid).map(|row| row.value.as_str());
+    let unknown = !matches!(said, Some("always" | "code"));
     let (plain, coded) = (always(context.target), has(context.target, Op::RigidTaps));
     let rigid = context.features.op(Op::CycleTapRigid);
     let mut changed = false;
@@ -83,14 +86,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     nc.items.retain(|item| *item != NcItem::Op(Op::TapReady));
                     if nc.items.is_empty() {
                         stmt.kind = StmtKind::Comment;
+                        if !stmt.site.comments.is_empty() || stmt.site.sequence.is_some() {
+                            block.stmts.push(stmt);
+                        }
+                        continue;
                     }
-                    if stmt.kind.nc().is_some()
-                        || !stmt.site.comments.is_empty()
-                        || stmt.site.sequence.is_some()
-                    {
-                        block.stmts.push(stmt);
-                    }
-                    continue;
                 }
                 asked |= nc.has(Op::RigidTaps);
                 let taps = nc.ops().any(Op::is_tap);
@@ -111,6 +111,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     found.extend((!nc.has(Op::CycleTapRigid) || lacks).then_some((span, PLAIN)));
                 } else if taps && by_cycle && waits && !nc.has(Op::CycleTapRigid) {
                     found.push((span, APART));
+                } else if taps && by_cycle && unknown {
+                    context.rests_on_source(index, span, Question::TapRigid);
                 }
                 asked &= !taps;
                 block.stmts.push(stmt);

@@ -2,9 +2,10 @@
 //!
 //! Law: a tap that turns S times a minute and advances the lead p each turn feeds S * p a minute. Side conditions:
 //! the block has both words; feed is per minute. Where nobody names how feeds count, they count so, as in all other blocks, unless
-//! the library has a code for another way. Counter-example: under feed per turn the feed word is the lead itself. The feed that was in force is said again where the cycle ends, for the source's
-//! tap leaves it alone. Where it is not a known number, the target reads it before the tap and says that, if it can and
-//! every way to the end of the cycle came by the reading; else that is a review diagnostic.
+//! the library has a code for another way. Counter-example: under feed per turn the feed word is the lead itself.
+//! The feed that was in force is said again where the cycle ends, for the source's tap leaves it alone. Where it is not a known
+//! number, the target reads it before the tap and says that, if it can and every way to the end of the cycle came by the
+//! reading; else that is a review diagnostic.
 
 mod kept;
 

@@ -136,7 +136,7 @@ struct Walk {
 }
 
 impl Walk {
-    /// The blocks for a hole; none where it stays as it is.
+    /// The blocks in the place of a hole; nothing if it stays as it is.
     fn hole(&mut self, hole: &Hole<'_>) -> Result<Option<Vec<Nc>>, &'static str> {
         let ends = match hole.state.op(Group::ReturnPlane) {
             Some(Op::ReturnR) => Target::Plane,

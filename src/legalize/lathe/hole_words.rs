@@ -48,7 +48,7 @@ impl Told {
         self.words.iter()
     }
 
-    /// How far the retract plane lies from where the cycle began, a radius along X; none where it is computed.
+    /// How far the retract plane lies from where the cycle began, as a radius along X; nothing if it is computed.
     pub fn plane(&self) -> Option<f64> {
         let plane = self.words.iter().find(|(role, _)| *role == Role::CycleRStep);
         plane.map_or(Some(0.0), |(_, value)| value.constant())

@@ -5,7 +5,7 @@ use crate::control::trace::Place;
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::text::Span;
 use crate::verify::compare::is_cut;
-use crate::verify::explore::{Attempt, Circumstances, Input, Inputs, Steer, behind, in_order, inputs_of};
+use crate::verify::explore::{Attempt, Circumstances, Input, Inputs, Steer, hangs_on, in_order, inputs_of};
 use crate::verify::sides::class_of;
 use std::collections::BTreeSet;
 
@@ -89,7 +89,7 @@ impl Verifier<'_, '_> {
         let Some((file, span)) = place else { return all };
         let texts = &self.job.source.library.files;
         let blocks = texts.get(file).map_or(&[][..], |file| &file.parsed.blocks);
-        in_order(all, &behind(blocks, span), self.job.source.control, scenario)
+        in_order(all, &hangs_on(blocks, span), self.job.source.control, scenario)
     }
 
     /// True once its time or its steps are used up.

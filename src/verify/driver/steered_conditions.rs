@@ -62,7 +62,7 @@ impl Verifier<'_, '_> {
         came
     }
 
-    /// The file and the first place of what a condition is about.
+    /// The file, and the first block in it that a condition is about.
     fn place_of(&self, at: usize) -> Option<(usize, Span)> {
         let assumed = self.job.assumptions.get(&self.counted)?.get(at)?;
         let mut predicate = assumed.predicate.clone();

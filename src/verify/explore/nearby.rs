@@ -17,7 +17,7 @@ const MOST: usize = 200;
 type Named = (String, u32);
 
 /// The variables that the block at a place hangs on, the nearest first.
-pub fn behind(blocks: &[Block], place: Span) -> Vec<Named> {
+pub fn hangs_on(blocks: &[Block], place: Span) -> Vec<Named> {
     let here = |block: &&Block| block.span.start < place.end && place.start < block.span.end;
     let mut found: Vec<Named> = Vec::new();
     let mut known: BTreeSet<Named> = BTreeSet::new();
@@ -65,8 +65,8 @@ fn named(variable: &VarRef) -> Option<Named> {
     }
 }
 
-/// The inputs, those first that come first in `behind`.
-pub fn in_order(all: Vec<Input>, behind: &[Named], control: &Control, scenario: &Scenario) -> Vec<Input> {
+/// The inputs, those first that come first in `hangs_on`.
+pub fn in_order(all: Vec<Input>, hangs_on: &[Named], control: &Control, scenario: &Scenario) -> Vec<Input> {
     let rank = |input: &Input| {
         let is_it = |(name, number): &Named| match input {
             Input::Variable(own, _) => *own == format!("{name}{number}"),
@@ -74,7 +74,7 @@ pub fn in_order(all: Vec<Input>, behind: &[Named], control: &Control, scenario: 
                 .read_system(name, Some(*number))
                 .is_some_and(|(state, subscripts, _)| is_state(input, state, &subscripts, scenario)),
         };
-        behind.iter().position(is_it).unwrap_or(usize::MAX)
+        hangs_on.iter().position(is_it).unwrap_or(usize::MAX)
     };
     let mut ranked: Vec<(usize, Input)> = all.into_iter().map(|input| (rank(&input), input)).collect();
     ranked.sort_by_key(|(rank, _)| *rank);
@@ -100,7 +100,7 @@ fn is_state(input: &Input, state: Sys, subscripts: &[u32], scenario: &Scenario) 
 
 #[cfg(test)]
 mod tests {
-    use super::behind;
+    use super::hangs_on;
     use crate::dialect::Control;
     use crate::syntax::parse_file;
     use crate::text::Span;
@@ -111,7 +111,7 @@ mod tests {
         let control = Control::from_profile("dialect = \"fanuc\"\n").unwrap();
         let parsed = parse_file(text.as_bytes(), control.entry().parse);
         let at = u32::try_from(text.find("IF").unwrap()).unwrap();
-        let found = behind(&parsed.blocks, Span { start: at, end: at + 1 });
+        let found = hangs_on(&parsed.blocks, Span { start: at, end: at + 1 });
         let numbers: Vec<u32> = found.iter().map(|(_, number)| *number).collect();
         assert_eq!(numbers, [1, 2, 3, 4, 5003]);
     }
