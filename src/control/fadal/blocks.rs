@@ -36,6 +36,7 @@ impl<'r> Interpreter<'r, '_> {
     /// Runs a block that stands in no border of a subroutine.
     pub(super) fn run(&mut self, block: &Block) -> Flow<Next> {
         let mut line = Line::default();
+        self.waited &= block.items.iter().any(|item| matches!(item.kind, ItemKind::Print { .. }));
         for item in &block.items {
             match &item.kind {
                 ItemKind::Skip(number) => {

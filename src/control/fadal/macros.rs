@@ -37,7 +37,7 @@ impl Interpreter<'_, '_> {
             }
             ItemKind::Clear(ranges) => self.clear(ranges)?,
             ItemKind::Set(options) => self.set(options),
-            ItemKind::Wait => self.moving = false,
+            ItemKind::Wait => (self.moving, self.waited) = (false, true),
             ItemKind::Start(program) => self.start(program)?,
             ItemKind::Index(text) => {
                 let code = Some(format!("INDEX {text}"));

@@ -53,6 +53,7 @@ fn run<'r>(
         in_modal: false,
         line: String::new(),
         printed: None,
+        waited: false,
         moving: false,
         plane_moved: false,
     };
@@ -107,8 +108,10 @@ struct Interpreter<'r, 'f> {
     in_modal: bool,
     /// What PRINT left on the line of the screen.
     line: String,
-    /// The last line of it, until words are read.
+    /// The last line of it if it may ask for a value at a stop, until words are read.
     printed: Option<String>,
+    /// True after a block that waits for the moves, until the next block that is no PRINT.
+    waited: bool,
     /// True while moves may still be under way: nothing waited for them.
     moving: bool,
     /// True once R0 has another value than the retract plane of the drilling cycle in force was told.

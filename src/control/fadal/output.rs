@@ -13,6 +13,9 @@ const LONGEST: usize = 10_000;
 impl Interpreter<'_, '_> {
     /// Prints; with `stay` the next one goes on after it.
     pub(super) fn print(&mut self, parts: &[PrintPart], stay: bool) -> Flow<()> {
+        // A text alone, shown when the moves are done: that is how a message with which the machine stops is written.
+        let waited = std::mem::take(&mut self.waited);
+        let asks = waited && !stay && self.line.is_empty() && matches!(parts, [PrintPart::Text(_)]);
         for part in parts {
             match part {
                 PrintPart::Text(span) => {
@@ -28,7 +31,7 @@ impl Interpreter<'_, '_> {
             }
         }
         if !stay || self.line.len() > LONGEST {
-            self.put_out();
+            self.put_out(asks);
         }
         Ok(())
     }
@@ -36,13 +39,13 @@ impl Interpreter<'_, '_> {
     /// Puts out what is left on the line.
     pub(super) fn flush(&mut self) {
         if !self.line.is_empty() {
-            self.put_out();
+            self.put_out(false);
         }
     }
 
-    fn put_out(&mut self) {
+    fn put_out(&mut self, asks: bool) {
         let text = std::mem::take(&mut self.line);
-        if self.session.scenario.sets_named {
+        if asks && self.session.scenario.sets_named {
             self.printed = Some(text.clone());
         }
         self.session.trace.push(EventKind::Output { text });
