@@ -222,8 +222,13 @@ impl Verifier<'_, '_> {
             let is = |other: &Event| event.is_some_and(|event| std::ptr::eq(event, other));
             run.events.iter().position(is).unwrap_or(run.events.len())
         };
+        // All that its block does counts: one move of a cycle may be as after power-on, and the next one not.
+        let mut last = place(at);
+        while run.events.get(last + 1).is_some_and(|next| next.at == run.events[last].at) {
+            last += 1;
+        }
         let own = self.apart(self.job.source, run, &plain);
-        own.is_some_and(|own| place(own.source) <= place(at))
+        own.is_some_and(|own| place(own.source) <= last)
     }
 
     /// True where the target does something else than after power-on too.
