@@ -116,9 +116,9 @@ impl Question {
         Self::ALL.iter().copied().find(|question| question.name() == name)
     }
 
-    /// True for what a shop chooses for its programs, whatever the control can do.
+    /// True for what a shop says of its programs, whatever the control can do.
     pub const fn is_choice(self) -> bool {
-        matches!(self, Self::Corners)
+        matches!(self, Self::Corners | Self::PowerOffValues | Self::TapDwell)
     }
 
     /// True for the answer that a setting gives it, of a question that a table may leave open.
@@ -282,6 +282,8 @@ questions! {
     ModalGroups "modal.groups" OneOf(&["code", "unknown"]), "what a program reads of the modal groups other than motion: the code itself", if "said";
     OffsetNumbers "offset.numbers" OneOf(&["listed", "unknown"]), "the numbers of tool lengths and cutter radii in a memory of another make: as the table lists them", if "said";
     Corners "corners" OneOf(&["words", "moves"]), "how corners and angles of lines are written in programs for this lathe: by their words, or as moves", if "said";
+    PowerOffValues "power.off.values" OneOf(&["used", "unused", "unknown"]), "whether programs for this machine use what variables held when it was last switched off, or how vacant they are after power-on", if "said";
+    TapDwell "tap.dwell" OneOf(&["none", "waits"]), "the wait at the bottom that programs tell a tap of this mill: it waits, or the threads need none", if "said";
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
     HolePecks "hole.pecks" OneOf(&["plane", "clearance", "unknown"]), "how far a peck of a lathe's drilling cycle goes back: to its retract plane, or by a \

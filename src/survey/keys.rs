@@ -66,7 +66,9 @@ pub(super) fn asked(
             let found = found.entry((side, name)).or_default();
             found.programs.insert(at);
             found.needed.extend(value.map(f64::to_bits));
-            let shown = finding.setting.as_deref().and_then(|name| Some(name.split_once('=')?.1.to_owned()));
+            let there = finding.setting_there.as_deref().filter(|_| value.is_none());
+            let named = finding.setting.as_deref().or(there);
+            let shown = named.and_then(|name| Some(name.split_once('=')?.1.to_owned()));
             found.likely = found.likely.take().or(shown);
             let place = places.at(program.file, finding.span);
             if found.places.len() < NAMED && !found.places.contains(&place) {
@@ -89,7 +91,11 @@ pub(super) fn asked(
         let whole = row.map_or(1.0, Setting::whole);
         let needed = found.needed.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
         let needed: Vec<String> = needed.map(|value| value.to_string()).collect();
-        let values = if needed.is_empty() { values(row, short) } else { needed };
+        let answers = question.map_or_else(String::new, |question| question.answers().written(&[]));
+        let mut values = if needed.is_empty() { values(row, short) } else { needed };
+        if values.is_empty() && question.is_some_and(Question::is_choice) {
+            values = answers.split(" or ").map(|answer| answer.trim_matches('"').to_owned()).collect();
+        }
         // A length that a setting gives is small beside those of a part. Parameters are whole numbers.
         let gives = row.and_then(|row| row.gives).filter(|role| section == "settings" && role.is_length());
         let is_open = values.is_empty() && row.is_none_or(|row| row.default.is_none());

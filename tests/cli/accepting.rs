@@ -7,6 +7,7 @@ use serde_json::Value;
 const PROJECT: &str = "\
 # The machines of the shop.
 [machines.old]
+profile = \"old.toml\"
 dialect = \"fanuc\"   # the one at the door
 [machines.new]
 profile = \"new.toml\"
@@ -20,6 +21,9 @@ machine = \"old\"
 new = \"out\"
 ";
 
+/// Its programs need what variables held at power-off.
+const OLD: &str = "dialect = \"fanuc\"\n[behaviours]\n\"power.off.values\" = \"used\"\n";
+
 const NEW: &str = "dialect = \"haas\"\n";
 
 /// A program that is for review: a variable that the machine keeps (MG0404), and a place that is read early (MG0314), since it
@@ -32,6 +36,7 @@ const BELOW: &str = "%\nO9001\nG0 Y2.\nM99\n%\n";
 fn shop() -> Shop {
     Shop::with(&[
         ("macroglot.toml", PROJECT),
+        ("old.toml", OLD),
         ("new.toml", NEW),
         ("programs/asks.nc", ASKS),
         ("programs/called.nc", CALLED),
@@ -139,19 +144,9 @@ fn a_change_of_what_it_concerns_asks_again() {
         ("programs/called.nc", CALLED, CALLED.replace("Y#1", "Y[#1+1.]"), "another text of the program"),
         ("programs/below.nc", BELOW, BELOW.replace("Y2.", "Y3."), "another text of the program"),
         ("new.toml", NEW, format!("{NEW}units = \"inch\"\n"), "for other machines"),
-        ("macroglot.toml", "", String::new(), "for other machines"),
+        ("old.toml", OLD, OLD.replacen('\n', "\nunits = \"inch\"\n", 1), "for other machines"),
     ];
     for (name, before, after, why) in changes {
-        let project = shop.read("macroglot.toml");
-        let (before, after) = match name {
-            // A profile for the source, which had none.
-            "macroglot.toml" => {
-                shop.write("old.toml", b"dialect = \"fanuc\"\nunits = \"inch\"\n");
-                let with = project.replace("# the one at the door", "\nprofile = \"old.toml\"");
-                (project.clone(), with)
-            }
-            _ => (before.to_owned(), after),
-        };
         shop.write(name, after.as_bytes());
         let run = shop.run("convert --no-verify");
         assert!(run.out.ends_with(&format!("{FOR_REVIEW}\n")), "{name}: {}", run.out);
@@ -477,6 +472,7 @@ fn each_library_and_machine_has_its_own_answers() {
     );
     let shop = Shop::with(&[
         ("macroglot.toml", &both),
+        ("old.toml", OLD),
         ("new.toml", NEW),
         ("other.toml", NEW),
         ("programs/asks.nc", ASKS),
@@ -519,6 +515,7 @@ fn a_shared_program_has_one_answer() {
         .replace("machine = \"old\"", "machine = \"old\"\napart = true\nshared = [\"programs/macros\"]");
     let shop = Shop::with(&[
         ("macroglot.toml", &project),
+        ("old.toml", OLD),
         ("new.toml", NEW),
         ("programs/job1/a.nc", CLEAN),
         ("programs/job2/a.nc", CLEAN),
@@ -541,7 +538,12 @@ fn a_shared_program_has_one_answer() {
 #[test]
 fn check_honours_what_is_accepted() {
     let twice = "%\nO3000\nG20 G17 G90 G40 G80 G94 G54\nIF[#500EQ1]GOTO10\nN10 G0 X1.\nN10 G0 X2.\nM30\n%\n";
-    let shop = Shop::with(&[("macroglot.toml", PROJECT), ("new.toml", NEW), ("programs/twice.nc", twice)]);
+    let shop = Shop::with(&[
+        ("macroglot.toml", PROJECT),
+        ("old.toml", OLD),
+        ("new.toml", NEW),
+        ("programs/twice.nc", twice),
+    ]);
     let line = "check --only read --cache cache";
     let run = shop.run(line);
     assert!(run.code == 1 && run.out.contains("MG0311"), "{}", run.out);

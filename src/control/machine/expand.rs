@@ -160,7 +160,9 @@ impl Driver<'_> {
             }
             _ => (Spindle::Clockwise, Spindle::CounterClockwise),
         };
-        self.dwell(cycle.dwell);
+        if self.machine.rules.taps_wait {
+            self.dwell(cycle.dwell);
+        }
         self.turn(back);
         self.feed(r);
         self.turn(before);

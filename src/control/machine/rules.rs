@@ -78,6 +78,8 @@ pub struct Rules {
     pub planes_frozen: Fact<bool>,
     /// How far over the last depth a peck begins, where the machine's profile says it: millimetres.
     pub peck_clearance: Option<f64>,
+    /// False where the profile says that the wait of a tap is none.
+    pub taps_wait: bool,
     pub zero_repeats_stores: Fact<bool>,
     pub zero_repeats_moves: Fact<bool>,
     pub repeats_move: Fact<bool>,
@@ -228,6 +230,7 @@ impl Rules {
             negative_radius_is_long: negative_is_long,
             no_centre: fact(control, Question::ArcWithoutCentre, no_centre, NoCentre::Alarm),
             centre_is_incremental: fact(control, Question::ArcCentre, word("incremental", "absolute"), true),
+            taps_wait: control.behaviour(Question::TapDwell).is_none_or(|row| row.value != "none"),
             peck_clearance: control
                 .behaviour(Question::CyclePeckClearance)
                 .and_then(|row| row.value.parse().ok()),

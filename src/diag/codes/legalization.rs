@@ -19,7 +19,7 @@ Shorten the profile's `reserved` list, get the option for more variables, or con
     "0404" OtherRetention Review "a variable lives longer or shorter"
 "A variable keeps its value over power-off on one control and loses it on the other, and the program reads it before it writes it.
 
-If nobody relies on the value from before power-off, nothing needs to be done. Otherwise move it by hand to a register that lasts as long as on the source."
+If nobody relies on the value from before power-off, nothing needs to be done: write \"power.off.values\" = \"unused\" under [behaviours] in the profile of the source's machine. It is asked once for the library. With \"used\" each program that reads such a variable first is for review; move it by hand to a register that lasts as long as on the source."
 
     "0405" Conditional Review "equivalent only if this holds on your machine"
 "The target does the same only if something is true that the programs do not say: what the operator does at a stop, how inputs are wired, which unit the control is set to. The message names it.

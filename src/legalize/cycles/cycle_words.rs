@@ -8,7 +8,7 @@
 //! the letter of that dwell means something else beside the next code. Counter-example: `G82 P500 .. G83`, where the
 //! source's G83 takes no P and the target's waits half a second.
 
-use super::peck_clear;
+use super::{fine_shifts, peck_clear, tap_waits};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
@@ -49,6 +49,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let span = stmt.site.span;
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 let Some(op) = state.op(Group::Cycle).filter(|op| op.is_cycle()) else { continue };
+                tap_waits::fit(nc, op, context);
+                fine_shifts::fit((nc, span), (before, op), index, context);
                 let here = if before == Some(Op::CycleOff) { Lasting::default() } else { here };
                 let begins = begins(nc);
                 for role in untaken(nc, op, context.target) {
@@ -57,14 +59,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 if !begins {
                     continue;
                 }
-                let [own, others] = sides(op, context);
+                let [own, others] = waits(op, context);
                 let dwell = match (own, others, here.dwell) {
                     (true, false, Dwell::Is(Some(dwell))) if dwell.constant() != Some(0.0) => {
                         let what = format!(
                             "the dwell of an earlier cycle is still in force in this one ({op}), and the \
                              target's code takes no dwell"
                         );
-                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                        let told = Diagnostic::new(Code::NoEquivalent, span, what);
+                        context.add(index, if tap_waits::is_tap(op) { tap_waits::told(told) } else { told });
                         continue;
                     }
                     (true, false, Dwell::Many) => {
@@ -116,6 +119,9 @@ fn refuse(
     let told = Diagnostic::new(Code::NoEquivalent, span, word_too_much(op, role, context));
     let needed = if role == Role::PeckClear { peck_clear::fit(nc, state, context) } else { None };
     match needed {
+        None if role == Role::CycleDwell && tap_waits::is_tap(op) => {
+            context.add(index, tap_waits::told(told));
+        }
         None => context.add(index, told.with_help(TOO_MUCH_HELP)),
         Some(needed) if nc.word(role).is_some() => {
             let setting = format!("behaviour.{}={needed}", Question::CyclePeckClearance);
@@ -158,10 +164,11 @@ impl Lasting {
                 if before == Some(Op::CycleOff) {
                     *self = Self::default();
                 }
-                let [own, others] = sides(op, context);
+                let [own, others] = waits(op, context);
                 if let Some(dwell) = nc.word(Role::CycleDwell) {
                     // What the target's code does not take, it does not keep.
-                    *self = Self { dwell: Dwell::Is(Some(dwell.clone())), away: !others };
+                    let away = !others || tap_waits::left_out(op, context);
+                    *self = Self { dwell: Dwell::Is(Some(dwell.clone())), away };
                 } else if begins(nc) && others && (own || before != Some(Op::CycleOff)) {
                     self.away = !own;
                 }
@@ -234,9 +241,9 @@ fn parts(module: &Module, context: &Context<'_>) -> bool {
         if !nc.ops().any(Op::is_cycle) {
             return nc.word(Role::CycleDwell).is_some();
         }
-        nc.ops().filter(|op| op.is_cycle()).any(|op| match sides(op, context) {
+        nc.ops().filter(|op| op.is_cycle()).any(|op| match waits(op, context) {
             [own, others] if begins(nc) => !own && others,
-            [_, others] => !others,
+            [_, others] => !others || tap_waits::left_out(op, context),
         })
     })
 }
@@ -247,8 +254,14 @@ fn begins(nc: &Nc) -> bool {
 }
 
 /// Whether the source's code for a cycle takes a dwell, and the target's.
-fn sides(op: Op, context: &Context<'_>) -> [bool; 2] {
+pub(super) fn sides(op: Op, context: &Context<'_>) -> [bool; 2] {
     [context.source, context.target].map(|control| takes(control, op, Role::CycleDwell))
+}
+
+/// As [`sides`]; false of a source whose taps need no wait.
+fn waits(op: Op, context: &Context<'_>) -> [bool; 2] {
+    let [own, others] = sides(op, context);
+    [own && !tap_waits::left_out(op, context), others]
 }
 
 /// True where the letter of a dwell is that of another word beside the control's code for a cycle.

@@ -1,10 +1,12 @@
 //! Variables that one control keeps over power-off and the other clears.
 //!
 //! Law: a variable that every run writes before it reads it does not show what it held at power-on. For the others the
-//! difference can be seen, and is a review diagnostic: a counter kept in `#100` starts anew on a control that clears it,
-//! and a test for vacancy after power-on never comes true on one that keeps it.
+//! difference can be seen: a counter kept in `#100` starts anew on a control that clears it, and a test for vacancy after
+//! power-on never comes true on one that keeps it. Whether the shop needs such values is asked once, and the profile of the
+//! source says it. If it does, each program is for review.
 
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Question, Side};
 use crate::ir::analysis::Universe;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::{Callee, Class, Module, TermKind, Var};
@@ -13,7 +15,10 @@ use crate::legalize::calls::standing;
 use crate::legalize::registers::map::{Register, Registers};
 use crate::syntax::ProgramName;
 use foldhash::{HashMap, HashMapExt};
+use std::collections::BTreeSet;
 use std::sync::Arc;
+
+const QUESTION: Question = Question::PowerOffValues;
 
 /// Reports variables whose life differs.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -43,6 +48,11 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
         differing(var, register).map(|kept| (*var, kept, named()))
     };
     let mut lives: Vec<_> = registers.of.iter().filter_map(of).collect();
+    let answer = context.source.behaviour(QUESTION).map(|row| row.value.as_str());
+    if answer == Some("unused") {
+        return;
+    }
+    let is_needed = answer == Some("used");
     if lives.is_empty() {
         return;
     }
@@ -50,27 +60,41 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     let universe = Universe::new(lives.iter().map(|(var, ..)| *var).collect());
     let upward_exposed = UpwardExposed::among(module, universe.clone());
     let before = cut(module, context).map(|cut| UpwardExposed::among(&cut, universe));
-    let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
-    for index in roots(module) {
-        let span = module.programs[index].site.span;
+    let asked = context.source.to_settle(QUESTION.fact(), Side::Source);
+    let of = |index: usize, (kept, after): (bool, bool)| -> Vec<usize> {
         let is_at_entry = upward_exposed.at_entry_of(index);
         let is_before = before.as_ref().map(|before| before.at_entry_of(index));
-        for (kept, after) in [(true, false), (false, false), (true, true), (false, true)] {
-            let shown = lives.iter().enumerate();
-            let is_after = |var: Var| is_before.as_ref().is_some_and(|is_before| !is_before(var));
-            let shown =
-                shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_after(*var) == after);
-            let shown: Vec<usize> = shown.map(|(at, _)| at).collect();
+        let is_after = |var: Var| is_before.as_ref().is_some_and(|is_before| !is_before(var));
+        let shown = lives.iter().enumerate();
+        let shown =
+            shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_after(*var) == after);
+        shown.map(|(at, _)| at).collect()
+    };
+    let roots = roots(module);
+    let ways = [(true, false), (false, false), (true, true), (false, true)];
+    // One question of the library names all of its variables.
+    let all = ways.map(|way| roots.iter().flat_map(|root| of(*root, way)).collect::<BTreeSet<usize>>());
+    let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
+    for index in roots {
+        let span = module.programs[index].site.span;
+        for (way, all) in ways.into_iter().zip(&all) {
+            let (shown, (kept, after)) = (of(index, way), way);
             if shown.is_empty() {
                 continue;
             }
+            let shown = if is_needed { shown } else { all.iter().copied().collect() };
             // Programs of a library that share their variables share the sentence.
             let what = said.entry(shown).or_insert_with_key(|shown| {
                 told(&shown.iter().map(|at| &lives[*at].2).collect::<Vec<_>>(), kept).into()
             });
             let finding = Diagnostic::new(Code::OtherRetention, span, what.clone());
-            // After a program that stands in the machine it mostly is what that one left.
-            context.add(index, if after { finding.asked_once() } else { finding });
+            let finding = match is_needed {
+                // After a program that stands in the machine it mostly is what that one left.
+                true if after => finding.asked_once(),
+                true => finding,
+                false => finding.with_help(&*asked).with_fact(QUESTION.fact()).asked_once(),
+            };
+            context.add(index, finding);
         }
     }
 }
