@@ -17,6 +17,12 @@ const OPEN: [&str; 2] = ["unknown", SETTING];
 /// Limits that may be 0: a control need not have such a thing at all.
 const MAY_BE_NONE: [&str; 1] = ["brackets"];
 
+/// The limit that says how many characters a line may have.
+const LINE: &str = "line.length";
+
+/// No machine takes shorter lines.
+const LEAST_LINE: u32 = 40;
+
 impl Overlay {
     /// Puts the answers that the profile states in place of the table's.
     pub(super) fn behaviours(&mut self, dialect: &mut Dialect) {
@@ -87,6 +93,17 @@ impl Overlay {
     /// Puts the limits that the profile states in place of the table's.
     pub(super) fn limits(&mut self, dialect: &mut Dialect) {
         for (name, most) in self.profile.limits.clone() {
+            if name == LINE && dialect.text.line.is_some() {
+                match most {
+                    LEAST_LINE.. => dialect.text.line = Some(most),
+                    _ => {
+                        let message = format!("{name} = {most} leaves no room for a block");
+                        let help = format!("write how many characters a line may have, {LEAST_LINE} or more");
+                        self.fault(&format!("limits:{name}"), message, help);
+                    }
+                }
+                continue;
+            }
             match dialect.limits.iter_mut().find(|row| row.name == name) {
                 Some(row) if most == 0 && row.max != Some(0) && !MAY_BE_NONE.contains(&name.as_str()) => {
                     let message = format!("{name} = 0 leaves nothing that a program may have");

@@ -4,7 +4,7 @@ use super::comments::{spelled, wrap, write_comment, write_spelled};
 use super::digits::write_padded;
 use super::labels::Standing;
 use super::sheet::Sheet;
-use crate::diag::Code;
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Comment, Cond, SourceInfo};
 use crate::text::Span;
@@ -240,10 +240,15 @@ impl<'p> Sheet<'p> {
         }
         let length = self.text.len() - self.line.start;
         if length > limit {
-            self.refuse(
-                Code::LineTooLong,
-                format!("the block has {length} characters, and a line takes {limit}"),
+            let what = format!("the block has {length} characters, and a line takes {limit}");
+            let told = Diagnostic::new(Code::LineTooLong, self.span, what);
+            let text = self.control.text();
+            let is_open = text.line == Some(limit as u32) && !text.origin.is_confirmed();
+            let help = format!(
+                "no maker's page says how long a line may be: if the machine takes longer ones, write \"line.length\" = {length} under \
+                 [limits] in its profile"
             );
+            self.faults.push(if is_open { told.with_help(help) } else { told });
         }
     }
 

@@ -268,7 +268,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     Ok(first) => out.extend(first),
                     Err(what) => {
                         let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
-                        context.add_once(index, what, finding);
+                        let own = matches!(state.ours, Length::Of(row) if state.tool == Some(row));
+                        let waits = own || what == MOVED;
+                        let asked = if waits { again::asked(finding, context) } else { finding };
+                        context.add_once(index, what, asked);
                     }
                 }
                 out.push(stmt);
@@ -285,11 +288,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 match state.sync(&rules) {
                     Ok(Some(Sync::Off)) => out.push(word_of(0, span)),
                     Ok(Some(Sync::Bring(tool))) => out.push(word_of(tool, span)),
-                    _ => context.add_once(
-                        index,
-                        ELSEWHERE,
-                        Diagnostic::new(Code::NoEquivalent, span, ELSEWHERE),
-                    ),
+                    _ => {
+                        let finding = Diagnostic::new(Code::NoEquivalent, span, ELSEWHERE);
+                        context.add_once(index, ELSEWHERE, again::asked(finding, context));
+                    }
                 }
             }
             block.stmts = out;
@@ -337,8 +339,7 @@ const LOADED: &str = "a program that takes up the length of one tool, and change
                       the length counts, because on the target only the tool word brings one. Make sure that such \
                       programs are run with the tool whose length they name";
 const NUMBERED: &str = "the number of this tool is taken to be a whole number, 1 or more: on the target tool 0 ends the length and changes to none";
-const ELSEWHERE: &str = "a return between a tool change and the block that takes up the tool's length: on the target the change \
-                         brings the length. Take it up before";
+const ELSEWHERE: &str = "a return between a tool change and the block that takes up the tool's length: on the target the change brings the length. Take it up before";
 const NOT_ITS_OWN: &str = "this takes up a length whose tool the program has not changed to, or has ended the length of: on the \
                            target only the change to a tool brings its length";
 const MOVED: &str = "a move along Z between a tool change and the block that takes up the tool's length: on the target the change \

@@ -73,7 +73,8 @@ fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxErr
         _ if last.is_ascii_alphabetic() && lone_letter(before) && expects(Lex::Number) => {
             let end = block.start + before.len() as u32;
             let letter = Span::new(end - 1, end);
-            let message = format!("{} has no number after it", char::from(last));
+            let name = char::from(last);
+            let message = format!("{name} has no number after it: write the number, or take {name} out");
             fault(Code::WordWithoutValue, letter, message)
         }
         _ => fault(Code::Unreadable, one, expectation(next, &stop.expected)),

@@ -7,6 +7,7 @@
 
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Question, Settled};
 use crate::ir::analysis::ModalFacts;
 use crate::ir::analysis::tool_word::ToolWord;
 use crate::ir::{BlockId, Cond, Expr, Module, Nc, NcItem, Program, Relation, TermKind};
@@ -47,6 +48,24 @@ pub(super) fn run(module: &mut Module, facts: &ModalFacts, context: &mut Context
         }
         block.term.kind = TermKind::Jump(to);
     }
+}
+
+/// With what the target's profile may say, where nobody knows what a word of the tool in the spindle does: one that changes
+/// nothing brings the length at any place.
+pub(super) fn asked(finding: Diagnostic, context: &Context<'_>) -> Diagnostic {
+    let question = Question::ToolWordAgain;
+    if context.target.behaviour(question).is_none_or(|row| row.origin.is_confirmed()) {
+        return finding;
+    }
+    let Settled::Setting { section: "settings", name, .. } = context.target.settled_by(question.fact())
+    else {
+        return finding;
+    };
+    let help = format!(
+        "if a tool word changes nothing there while its tool is in the spindle, write {name} = \"skipped\" under [settings] in the \
+         target's profile. Else change to the tool again where its length is taken up"
+    );
+    finding.with_help(help).lacking_there(format!("setting.{name}=skipped"))
 }
 
 /// The block of a change that a comparison of its tool leaves out, and whether the last T is what is compared.

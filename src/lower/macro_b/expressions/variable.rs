@@ -3,7 +3,7 @@
 use super::place::At;
 use crate::canon::Sys;
 use crate::diag::{Asks, Code, Diagnostic};
-use crate::dialect::{Control, Question, SystemVariable};
+use crate::dialect::{Control, Question, SystemVariable, registry};
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var, constant_part, shifted};
 use crate::lower::common::constant;
 use crate::lower::macro_b::build::Lowering;
@@ -135,12 +135,7 @@ impl<'a> Lowering<'a> {
                     let told = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
                     if stated { told } else { told.lacking(format!("{setting}={value}")) }
                 }
-                None => {
-                    let what = format!("the table of this control has no variable #{number}");
-                    let help = "if the machine has it as a variable of its own, name it in 'variables' of its profile, with all others";
-                    let told = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
-                    told.asking_for(Asks::Variable { number })
-                }
+                None => missing(self.control, number, span),
             };
             self.findings.add(told);
             return None;
@@ -229,4 +224,25 @@ impl<'a> Lowering<'a> {
 /// The variable `count` places after `first`.
 fn behind(first: Var, count: usize) -> Var {
     Var { number: first.number.saturating_add(count as u32), ..first }
+}
+
+/// What is told of a number that the table does not have. Where the table of a control of the family has it as one of the
+/// system's, the machine has no variable of the shop there.
+fn missing(control: &Control, number: u32, span: Span) -> Diagnostic {
+    let what = format!("the table of this control has no variable #{number}");
+    let family = &control.dialect().family;
+    let others = registry::all().iter().filter_map(|entry| entry.dialect().ok());
+    let mut others = others.filter(|other| other.family == *family && other.name != control.name());
+    let is_it = |row: &&SystemVariable| row.name == "#" && row.first == Some(number);
+    let found = others.find_map(|other| Some((&other.title, other.system.iter().find(is_it)?)));
+    let Some((title, row)) = found else {
+        let help = "if the machine has it as a variable of its own, name it in 'variables' of its profile, with all others. If it is one \
+                    of the control's, look up what it reads, and write what the table has for that";
+        let told = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
+        return told.asking_for(Asks::Variable { number });
+    };
+    let note = row.origin.note.as_deref().unwrap_or_else(|| row.state.meaning().trim());
+    let what = format!("{what}; on a {title} it is one of the control's ({note})");
+    let help = "if the program is written for that control, name that one as the source. Else write what this control has for it";
+    Diagnostic::new(Code::NotUnderstood, span, what).with_help(help)
 }
