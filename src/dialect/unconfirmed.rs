@@ -1,7 +1,7 @@
 //! The words for facts that no manual confirms.
 
 use super::overlay::conditions;
-use super::{Control, Mark, Question, Row, Setting, matters};
+use super::{Control, Mark, Origin, Question, Row, Setting, matters};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -124,10 +124,23 @@ impl Control {
         }
     }
 
-    /// The setting that a row of system variables holds under, where the table takes a value that nobody stated.
+    /// The setting that a row of a code, a word or a system variable holds under, where the table takes a value that nobody stated.
     fn open_setting(&self, fact: &str) -> Option<&Setting> {
-        let rows = self.dialect().system.iter().filter(|row| !row.origin.is_settled() && row.fact() == fact);
-        let names = rows.filter_map(|row| row.when.as_deref()).flat_map(conditions).map(|(name, _)| name);
+        let dialect = self.dialect();
+        let is_open = |origin: &Origin, when: &Option<String>| when.is_some() && !origin.is_settled();
+        let (codes, words, system) = (dialect.codes.iter(), dialect.words.iter(), dialect.system.iter());
+        let codes =
+            codes.filter(|row| is_open(&row.origin, &row.when) && row.fact() == fact).map(|row| &row.when);
+        let words =
+            words.filter(|row| is_open(&row.origin, &row.when) && row.fact() == fact).map(|row| &row.when);
+        let system =
+            system.filter(|row| is_open(&row.origin, &row.when) && row.fact() == fact).map(|row| &row.when);
+        let names = codes
+            .chain(words)
+            .chain(system)
+            .flatten()
+            .flat_map(|when| conditions(when))
+            .map(|(name, _)| name);
         let mut settings = names.filter_map(|name| self.setting_row(name));
         settings.find(|row| row.assumed && !row.values.is_empty() && !self.states(&row.name))
     }

@@ -5,7 +5,7 @@
 //! them, the questions with several answers are left open.
 
 use super::{AskedStart, Survey};
-use crate::canon::{Group, Op};
+use crate::canon::Op;
 use crate::dialect::{
     Control, DecimalPoint, Plain, Profile, Question, QuestionGroup, Settled, Side, SiteCode, Units, Without,
 };
@@ -30,8 +30,10 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
         let (code, words, op) = (asked.code.clone(), asked.words.clone(), asked.op);
         Box::new(move |profile| profile.site.push(site(&code, &words, op)))
     });
-    // The unit has a question of its own.
-    let begins = survey.start.iter().filter(|asked| asked.group != Group::Units);
+    // The unit has a key of its own.
+    let units = survey.start.iter().any(AskedStart::is_unit) && chosen;
+    let units = units.then(|| -> Answer { Box::new(|profile| profile.units = Some(Units::Metric)) });
+    let begins = survey.start.iter().filter(|asked| !asked.is_unit());
     let begins: Vec<String> = begins.filter_map(|asked| asked.codes.first().cloned()).collect();
     let start = chosen.then(|| -> Answer { Box::new(move |profile| begin(profile, &begins)) });
     let there = begins_there(survey);
@@ -44,6 +46,7 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
         codes
             .chain(more)
             .chain(asked(source, target))
+            .chain(units)
             .chain(start)
             .chain(settings(survey, Side::Source))
             .chain(words(survey, Side::Source))

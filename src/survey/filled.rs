@@ -6,7 +6,7 @@
 
 use super::start::lines as lines_of_start;
 use super::words::with_words;
-use super::{AskedSetting, AskedWord, Survey};
+use super::{AskedSetting, AskedStart, AskedWord, Survey};
 use crate::dialect::{Control, Machine, Profile, Settled, Side};
 use crate::report::{Fact, Questions};
 use std::collections::BTreeMap;
@@ -63,8 +63,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
         }
     }
     let start = if side == Side::Source { &survey.start } else { &survey.start_of_target };
+    let (unit, start): (Vec<_>, Vec<_>) = start.iter().cloned().partition(AskedStart::is_unit);
     if !start.is_empty() {
-        asked.insert("start", lines_of_start(start, control.profile().start.codes.as_deref()));
+        asked.insert("start", lines_of_start(&start, control.profile().start.codes.as_deref()));
     }
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;
@@ -72,7 +73,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     let point = survey.with_questions(|questions| point(questions, control));
     let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
     let rotary = if side == Side::Source { survey.rotary.as_slice() } else { &[] };
-    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), rotary);
+    let unit =
+        unit.first().map_or(String::new(), |unit| format!(" ({})", counted(unit.programs, &unit.places)));
+    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), (&unit, rotary));
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     match side {
@@ -252,7 +255,7 @@ fn with_machine(
     text: &str,
     said: &Profile,
     (lathe, point): (Option<String>, Option<String>),
-    rotary: &[char],
+    (unit, rotary): (&str, &[char]),
 ) -> String {
     let kind = lathe.as_deref().unwrap_or("machine = \"mill\" or \"lathe\"");
     let axes = match said.machine {
@@ -263,13 +266,12 @@ fn with_machine(
     let more: String = rotary.iter().map(|letter| format!(", \"{letter}\"")).collect();
     let axes = axes.replacen(']', &format!("{more}]"), 1);
     let Ok(profile) = Profile::read(text) else { return text.to_owned() };
+    let units =
+        format!("units = \"inch\" or \"metric\" # what its programs are in where no code says so{unit}");
     let all = [
         (said.title.is_none(), "title = \"\" # what people call the machine"),
         (said.machine.is_none() || lathe.is_some(), kind),
-        (
-            said.units.is_none(),
-            "units = \"inch\" or \"metric\" # what its programs are in where no code says so",
-        ),
+        (said.units.is_none(), units.as_str()),
         (point.is_some(), point.as_deref().unwrap_or_default()),
         (said.axes.is_none(), axes.as_str()),
         (profile.place("reserved").is_none(), "reserved = [] # variables that programs must not be given"),

@@ -31,7 +31,7 @@ pub use variables::AskedVariables;
 pub use words::AskedWord;
 
 use crate::diag::{Code, Diagnostic, Severity};
-use crate::dialect::Control;
+use crate::dialect::{Control, Settled};
 use crate::library::{
     Conversion, Input, Lock, Options, Outcome, ProgramReport, TakenAsLathe, Told, Understood, convert,
     is_of_another, outcome, understood,
@@ -213,7 +213,9 @@ impl Survey<'_> {
 
     /// What it asks beside the codes, each thing once.
     pub fn with_questions<T>(&self, look: impl FnOnce(&Questions<'_>) -> T) -> T {
-        look(&Questions::of(&[self.part(&self.rest)]))
+        let mut questions = Questions::of(&[self.part(&self.rest)]);
+        self.without_unit(&mut questions);
+        look(&questions)
     }
 
     /// What it will ask of the machines once all of that is answered, and does not ask now.
@@ -225,11 +227,25 @@ impl Survey<'_> {
             now.machines.iter().flat_map(|machine| &machine.facts).any(|of| of.settled_by == fact.settled_by)
         };
         later.machines.iter_mut().for_each(|machine| machine.facts.retain(|fact| !known(fact)));
+        self.without_unit(&mut later);
         later.machines.retain(|machine| !machine.facts.is_empty());
         later.group();
         later.open.clear();
         later.notes = 0;
         look(&later)
+    }
+
+    /// Takes out the question of the source's unit where it stands among what programs take from the machine.
+    fn without_unit(&self, questions: &mut Questions<'_>) {
+        let source = self.controls[0];
+        let is_source =
+            |of: &Control| of.name() == source.name() && of.profile().file == source.profile().file;
+        if self.start.iter().any(AskedStart::is_unit) {
+            for machine in questions.machines.iter_mut().filter(|machine| is_source(machine.control)) {
+                machine.facts.retain(|fact| fact.settled_by != Settled::UNITS);
+            }
+            questions.machines.retain(|machine| !machine.facts.is_empty());
+        }
     }
 
     fn part<'s>(&'s self, conversion: &'s Conversion) -> Part<'s> {

@@ -3,7 +3,7 @@
 use super::filled::{ASKS, TELLS, plain};
 use super::shape::{NAMED, Places};
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{CODE_SYSTEM, Control, Machine, Question, StartMode};
+use crate::dialect::{CODE_SYSTEM, Control, Machine, Question, Settled, StartMode};
 use crate::ir::Module;
 use crate::legalize::{cancels_length, rests_on, rests_unwritten};
 use crate::library::{Input, by_other_systems, understood};
@@ -31,8 +31,16 @@ pub struct AskedStart {
 }
 
 impl AskedStart {
-    /// The codes in words: `G20, G21`, or `G20, G21 in B; G70, G71 in C`.
+    /// True for the unit, which a profile says by a key of its own, and not under `[start]`.
+    pub(super) fn is_unit(&self) -> bool {
+        self.group == Group::Units
+    }
+
+    /// The codes in words: `G20, G21`, or `G20, G21 in B; G70, G71 in C`. The unit has a key of its own.
     pub fn told(&self) -> String {
+        if self.is_unit() {
+            return Settled::choice("units", &["inch", "metric"]);
+        }
         let mut lists: Vec<(&[String], Vec<&str>)> = Vec::new();
         for (system, codes) in &self.systems {
             match lists.iter_mut().find(|(known, _)| known == codes) {
@@ -85,9 +93,20 @@ fn choices(asked: &[AskedStart]) -> Vec<(String, String)> {
         let own = |asked: &AskedStart| {
             asked.systems.iter().find(|(of, _)| of == system).map(|(_, codes)| codes.join("|"))
         };
-        (asked.iter().filter_map(own).collect::<Vec<_>>().join(" "), format!(" # in G code system {system}"))
+        asked.iter().filter_map(own).collect::<Vec<_>>().join(" ")
     };
-    systems.into_iter().map(of).collect()
+    let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
+    for system in systems {
+        let choice = of(system);
+        match lines.iter_mut().find(|(known, _)| *known == choice) {
+            Some((_, systems)) => systems.push(system),
+            None => lines.push((choice, vec![system])),
+        }
+    }
+    let told = |(choice, systems): (String, Vec<&str>)| {
+        (choice, format!(" # in G code system {}", systems.join(" and ")))
+    };
+    lines.into_iter().map(told).collect()
 }
 
 /// The modes that the profile does not say, by each G code system of a lathe but for the one that is taken and is not hers.

@@ -308,7 +308,8 @@ fn the_code_system_and_what_is_in_force_are_answered_in_any_order() {
     let asked = shop.read("m.toml");
     // By facts/fanuc-lathe.md 1.
     assert!(asked.contains("#: Answer gcode_system first"), "{asked}");
-    assert!(asked.contains("#: the unit: one of G20, G21 in B; G70, G71 in C ("), "{asked}");
+    assert!(asked.contains("#? units = \"inch\" or \"metric\"") && !asked.contains("G70"), "{asked}");
+    assert_eq!(asked.matches("#? codes = ").count(), 1, "{asked}");
     assert!(asked.contains("#: feed a minute or a turn: one of G94, G95 in B and C ("), "{asked}");
     assert!(asked.contains("#: absolute or incremental: one of G90, G91 in B and C ("), "{asked}");
     let begins = "[start]\ncodes = \"G21 G18 G95 G90 G54 G0\"\n";
@@ -494,4 +495,71 @@ fn a_limit_that_a_shop_tries_refuses_nothing_in_the_outlook() {
     let survey = json(&shop, "survey lib --from fadal --to cc100 --format json");
     assert_eq!((&survey["now"]["refused"], &survey["answered"]["refused"]), (&0.into(), &0.into()));
     assert!(survey.to_string().contains("limit:number.digits"), "{survey}");
+}
+
+#[test]
+fn the_unit_is_asked_once_and_a_setting_by_its_name() {
+    let shop = Shop::with(&[(
+        "lib/o1.nc",
+        "O1\nG90 G54 G17 G94 G0 Z5.\nG52 X5. Y5.\nG1 X1. F100.\nG52 X0 Y0\nM30\n",
+    )]);
+    let line = "survey lib --from haas --to fanuc";
+    let run = shop.run(line);
+    assert_eq!(run.out.matches("units = \"inch\" or \"metric\"").count(), 1, "{}", run.out);
+    assert!(!run.out.contains("G20, G21") && !run.out.contains("MG0205:"), "{}", run.out);
+    // Setting 33 says what G52 means there, so it is what the profile states.
+    assert!(run.out.contains("# 33 = \"fanuc\" or \"haas\" or \"yasnac\""), "{}", run.out);
+    assert!(!run.out.contains("\"code:G52\""), "{}", run.out);
+    shop.run(&format!("{line} --write m.toml"));
+    let profile = shop.read("m.toml");
+    let units =
+        "#? units = \"inch\" or \"metric\" # what its programs are in where no code says so (o1.nc:1)\n";
+    assert!(profile.contains(units) && !profile.contains("G20|G21"), "{profile}");
+    // Answers to both leave nothing to ask of the source.
+    let units = profile.replace(units, "units = \"metric\"\n");
+    let said = units.replace("#? 33 = \"fanuc\" or \"haas\" or \"yasnac\"", "33 = \"haas\"");
+    shop.write("m.toml", said.as_bytes());
+    let again = shop.run("survey lib --machine m.toml --to fanuc");
+    assert!(!again.out.contains("units =") && !again.out.contains("for the Haas"), "{}", again.out);
+}
+
+#[test]
+fn what_variables_hold_after_power_on_is_asked_once_of_the_shop() {
+    let shop = Shop::with(&[
+        ("lib/a.nc", "O1\nG21 G90 G54 G17 G94 G0 Z5.\nG0 X#100\nM30\n"),
+        ("lib/b.nc", "O2\nG21 G90 G54 G17 G94 G0 Z5.\nG0 X#110\nM30\n"),
+        ("none.toml", "dialect = \"fanuc\"\n[behaviours]\n\"power.off.values\" = \"unused\"\n"),
+        ("some.toml", "dialect = \"fanuc\"\n[behaviours]\n\"power.off.values\" = \"used\"\n"),
+    ]);
+    let counts = |run: &str, count: &str| assert!(run.contains(count), "{run}");
+    let asked = shop.run("convert lib --from fanuc --to haas --out out --no-verify").out;
+    counts(&asked, "2 converted, 0 for review, 0 refused");
+    counts(&asked, "# \"power.off.values\" = \"used\" or \"unused\" # #100, #110 are vacant after power-on");
+    // Nobody needs them: nothing is asked. Somebody does: each program that reads one before it writes it is for review.
+    let none = shop.run("convert lib --machine none.toml --to haas --out out2 --no-verify").out;
+    assert!(none.contains("2 converted, 0 for review") && !none.contains("MG0404"), "{none}");
+    let some = shop.run("convert lib --machine some.toml --to haas --out out3 --no-verify").out;
+    counts(&some, "0 converted, 2 for review, 0 refused");
+    counts(&some, "  #110 is vacant after power-on");
+}
+
+/// A tool word that changes nothing for the tool in the spindle brings its length again after a return.
+#[test]
+fn what_a_tool_word_does_again_is_asked_where_a_length_waits_for_it() {
+    let shop = Shop::with(&[(
+        "lib/a.nc",
+        "O1\nG21 G90 G54 G17 G94 G80 G40 G0\nT1 M6\nG43 H1 Z50.\nG28 Z0\nG43 H1 Z40.\nM30\n",
+    )]);
+    let line = "survey lib --from fanuc --to cc100";
+    let run = shop.run(line);
+    assert!(run.out.contains("[settings] tool_again = \"changes\" or \"skipped\""), "{}", run.out);
+    assert!(
+        run.out.contains("answered  1 converted") || run.out.contains("answered  0 converted, 1"),
+        "{}",
+        run.out
+    );
+    shop.write("t.toml", b"dialect = \"cc100\"\nunits = \"metric\"\n[settings]\ntool_again = \"skipped\"\n");
+    let run = shop.run("convert lib --from fanuc --machine t.toml --to cc100 --out out --no-verify");
+    assert!(run.out.contains("0 refused"), "{}", run.out);
+    assert!(shop.read("out/a.nc").contains("T01\nN"), "{}", shop.read("out/a.nc"));
 }
