@@ -1,7 +1,8 @@
 //! Codes of the tool length without the number of one, where none was named before.
 //!
 //! Law: the number of a length lasts until another is named, on both controls. Where on some way none was named since the program
-//! began, the program rests on which one its controls take then. Where the target has no such code, the program is refused. Counter-example: `G43 H1 Z5.`, `G49`, `G43 Z5.`.
+//! began, the program rests on which one its controls take then. Where the target has no such code, the program is refused.
+//! Counter-example: `G43 H1 Z5.`, `G49`, `G43 Z5.`.
 
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
