@@ -141,7 +141,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[400, 302, 53, 25], [619, 86, 100, 30], [296, 13, 89, 53], [250, 9, 61, 38]]);
+    assert_eq!(counts, [[400, 302, 53, 25], [619, 86, 100, 30], [296, 13, 89, 53], [250, 9, 62, 39]]);
 }
 
 fn control(name: &str) -> Control {
@@ -675,7 +675,12 @@ fn the_kind_of_offset_memory_says_what_its_numbers_are() {
     assert_eq!(states(&shared), [Some("offset.shared"), None, None, None]);
     assert_eq!(states(&memory("B", 0)), [None; 4]);
     assert_eq!(states(&memory("C", 0)), [Some("offset.length.wear"), Some("offset.length"), None, None]);
-    let fifteen = ["offset.length", "offset.length.wear", "offset.radius", "offset.radius.wear"];
+    let fifteen = [
+        "offset.length",
+        "offset.length.wear",
+        "offset.diameter.or.radius",
+        "offset.diameter.or.radius.wear",
+    ];
     assert_eq!(states(&memory("C", 1)), fifteen.map(Some));
 }
 

@@ -248,6 +248,7 @@ questions! {
     TapRigid "tap.rigid" OneOf(&["always", "code", "unknown"]), "whether taps are rigid, so that the feed follows the spindle: always, or by a code before them alone", if "said";
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
+    CycleReturns "cycle.returns" OneOf(&["initial", "retract", "unknown"]), "where a hole of a drilling cycle ends: in the plane that the tool was in when the cycle began, or in the retract plane", if "op:call.cycle";
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
     CyclePlane "cycle.plane" OneOf(&["any", "xy", "unknown"]), "the planes that drilling cycles run in: any, or that of G17 alone", if "said";
     CycleDwellShared "cycle.dwell.shared" YES, "the time of a wait while a drilling cycle is in force is the wait of its next holes too", if "said";

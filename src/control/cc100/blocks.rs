@@ -19,7 +19,6 @@ impl<'r> Interpreter<'r, '_> {
     /// Runs a block.
     pub(super) fn run(&mut self, block: &'r Block) -> Flow<Next> {
         let mut words: SmallVec<[Spoken; 12]> = SmallVec::new();
-        let mut set: SmallVec<[Cell; 4]> = SmallVec::new();
         for (at, item) in block.items.iter().enumerate() {
             match &item.kind {
                 ItemKind::Word(word) => {
@@ -35,9 +34,6 @@ impl<'r> Interpreter<'r, '_> {
                 | ItemKind::EndOfBlock => {}
                 other => {
                     self.stood = None;
-                    if let ItemKind::Assign { target, .. } = other {
-                        set.extend(Cell::of(target));
-                    }
                     if self.statement(other)? {
                         if at + 1 < block.items.len() {
                             self.session.trace.doubt("machine:block.behind.branch");
@@ -47,16 +43,16 @@ impl<'r> Interpreter<'r, '_> {
                 }
             }
         }
-        if words.is_empty() { Ok(Next::On) } else { self.words(block, &words, &set) }
+        if words.is_empty() { Ok(Next::On) } else { self.words(block, &words) }
     }
 
-    fn words(&mut self, block: &'r Block, words: &[Spoken], set: &[Cell]) -> Flow<Next> {
+    fn words(&mut self, block: &'r Block, words: &[Spoken]) -> Flow<Next> {
         let session = &mut self.session;
         if session.machine.cycle().is_none() {
             self.lasting.cycle = None;
         }
         let mut read = words::read(session, words, &mut self.lasting)?;
-        self.cycle(&mut read, set);
+        self.cycle(&mut read);
         let session = &mut self.session;
         let command = &mut read.command;
         let incremental =
@@ -102,8 +98,8 @@ impl<'r> Interpreter<'r, '_> {
         }
     }
 
-    /// The variables that a drilling cycle takes its planes from, where its block sets them.
-    fn cycle(&mut self, read: &mut Read<'r>, set: &[Cell]) {
+    /// What a drilling cycle takes from elsewhere: its planes from variables, and where its holes end.
+    fn cycle(&mut self, read: &mut Read<'r>) {
         if !read.codes.iter().any(|row| row.op.is_cycle()) {
             return;
         }
@@ -112,11 +108,16 @@ impl<'r> Interpreter<'r, '_> {
         for (behaviour, role) in planes {
             let row = self.session.control.behaviour(behaviour);
             let cell = row.and_then(|row| row.value.parse().ok()).and_then(Cell::numbered);
-            let Some(cell) = cell.filter(|cell| set.contains(cell)) else { continue };
+            let Some(cell) = cell else { continue };
             self.session.rest_on(behaviour);
             if let Some(value) = self.store.get(cell) {
                 read.command.words.push((role, value));
             }
+        }
+        let returns = self.session.control.behaviour(Question::CycleReturns);
+        self.session.rest_on(Question::CycleReturns);
+        if returns.is_some_and(|row| row.value == "retract") {
+            read.command.ops.push(Op::ReturnR);
         }
     }
 

@@ -18,6 +18,7 @@ pub(in crate::legalize) mod leadless_taps;
 pub(in crate::legalize) mod lone_words;
 pub(in crate::legalize) mod missing_pecks;
 mod peck_clear;
+pub(in crate::legalize) mod plane_variables;
 pub(in crate::legalize) mod pockets;
 pub(in crate::legalize) mod rigid_cycles;
 pub(in crate::legalize) mod rigid_taps;

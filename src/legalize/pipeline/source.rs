@@ -5,7 +5,7 @@ use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::legalize::assumptions::{changes, facts, runtime, shop};
 use crate::legalize::cycles::{
-    cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, stored_places,
+    cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, stored_places,
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
@@ -47,6 +47,12 @@ pub(super) const SOURCE: &[Pass] = &[
         .when(cycle_arcs::concerns),
     Pass::reports("drill-planes", "checks drilling cycles in other planes than G17", drill_planes::run)
         .when(drill_planes::concerns),
+    Pass::reports(
+        "plane-variables",
+        "refuses changes of the variables that a cycle in force has its planes from",
+        plane_variables::run,
+    )
+    .when(plane_variables::concerns),
     Pass::reports(
         "cycle-waits",
         "refuses waits inside drilling cycles whose time is the cycle's too",

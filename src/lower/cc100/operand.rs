@@ -148,6 +148,14 @@ impl Lowering<'_> {
         }
         if nc.ops().any(Op::is_cycle) && nc.word(Role::Z).is_none() {
             self.cycle_words(nc, items, span);
+            match self.findings.behaviour(Question::CycleReturns, span) {
+                Some("retract") => self.add(nc, NcItem::Op(Op::ReturnR), span),
+                Some(_) => {}
+                None => {
+                    let why = "holes are taken to end in the plane that the tool was in when the cycle began";
+                    self.findings.unconfirmed(Question::CycleReturns.fact().into(), Some(why), span);
+                }
+            }
         }
     }
 
