@@ -19,7 +19,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     features.any_op(Op::is_tap) && by_lead(context.target) && !by_lead(context.source)
 }
 
-fn by_lead(control: &Control) -> bool {
+pub(super) fn by_lead(control: &Control) -> bool {
     control.behaviour(Question::CycleTapFeed).is_some_and(|row| row.value == "lead")
 }
 
@@ -34,7 +34,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let mut modal = facts.at(index, id);
             let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
             for stmt in &mut block.stmts {
-                let was = modal.op(Group::Cycle);
+                let (was, told) = (modal.op(Group::Cycle), speed);
                 modal.step(stmt);
                 speed.step(stmt);
                 let span = stmt.site.span;
@@ -53,6 +53,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         Code::NoEquivalent,
                         span,
                         "a feed under a tapping cycle: write the cycle again with it",
+                    ));
+                } else if was.is_some_and(Op::is_tap)
+                    && nc.word(Role::Speed).is_some()
+                    && modal.op(Group::Cycle) == was
+                    && (told != speed || told == Speed::Unknown)
+                {
+                    found.push((
+                        Code::NoEquivalent,
+                        span,
+                        "a speed under a tapping cycle: write the cycle again with it",
                     ));
                 } else if was.is_none_or(Op::is_tap)
                     && modal.op(Group::Cycle).is_some_and(|op| !op.is_tap())

@@ -3,6 +3,7 @@
 //! Law: a tap that turns S times a minute and advances the lead p each turn feeds S * p a minute. Side conditions:
 //! the block has both words; feed is per minute. Where nobody names how feeds count, they count so, as in all other blocks, unless
 //! the library has a code for another way. Counter-example: under feed per turn the feed word is the lead itself.
+//! A later hole that changes one of the two gets the feed of both, where its block follows the cycle's own.
 //! The feed that was in force is said again where the cycle ends, for the source's tap leaves it alone. Where it is not a known
 //! number, the target reads it before the tap and says that, if it can and every way to the end of the cycle came by the
 //! reading; else that is a review diagnostic.
@@ -10,6 +11,7 @@
 mod kept;
 
 use super::rigid_taps::told_before;
+use super::tap_leads::by_lead;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
@@ -18,6 +20,8 @@ use crate::legalize::Context;
 use kept::{Does, Kept};
 
 const ONLY: &str = "a tapping cycle by its lead, without a speed in its block, or not in feed per minute";
+
+const UNDER: &str = "a speed or a lead under a tapping cycle that an earlier block told the other: write the cycle again with both";
 
 const IN_MINUTES: &str = "the cycle's feed is its speed times its lead, in feed per minute: write G94 before it, if that is in force here";
 
@@ -33,6 +37,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if taps(nc))) {
         return;
     }
+    let by_lead = by_lead(context.source);
     let one_mode = !context.features.any_op(|op| matches!(op, Op::FeedPerTurn | Op::FeedInverse));
     let facts = context.modal_facts(module);
     let kept = Kept::of(module, &facts, context.target);
@@ -41,11 +46,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let (mut state, mut in_force) = (facts.at(index, id), kept.at(index, id));
+            let mut told = None;
             let stmts = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::replace(&mut block.stmts, stmts) {
+                let was = state.op(Group::Cycle);
                 let does = kept.step(&stmt, &mut state, &mut in_force);
                 let span = stmt.site.span;
+                let stays = was.is_some_and(Op::is_tap) && state.op(Group::Cycle) == was;
+                let skipped = stmt.site.skip.is_some();
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    if nc.ops().any(Op::is_tap) {
+                        told = Told::of(nc).filter(|_| !skipped);
+                    } else if stays
+                        && by_lead
+                        && [Role::Speed, Role::Lead].iter().any(|role| nc.word(*role).is_some())
+                        && (skipped || !told.as_mut().is_some_and(|told: &mut Told| told.changes(nc)))
+                    {
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, UNDER));
+                    }
                     if nc.ops().any(Op::is_tap)
                         && let Some((code, what)) = give_feed(nc, state.op(Group::FeedMode), one_mode)
                     {
@@ -67,6 +85,34 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 block.stmts.push(stmt);
             }
         }
+    }
+}
+
+/// The speed and the lead of a tap that follows no code of its own to be rigid, as its block tells both.
+struct Told {
+    speed: f64,
+    lead: f64,
+}
+
+impl Told {
+    fn of(nc: &Nc) -> Option<Self> {
+        let number = |role| nc.word(role).and_then(Expr::constant);
+        let told = Self { speed: number(Role::Speed)?, lead: number(Role::Lead)? };
+        nc.has(Op::CycleTapByLead).then_some(told)
+    }
+
+    /// Gives the block of a later hole the feed of its speed and its lead; false if one of them is computed.
+    fn changes(&mut self, nc: &mut Nc) -> bool {
+        for (role, value) in [(Role::Speed, &mut self.speed), (Role::Lead, &mut self.lead)] {
+            match nc.word(role).map(Expr::constant) {
+                Some(Some(number)) => *value = number,
+                Some(None) => return false,
+                None => {}
+            }
+        }
+        nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Lead | Role::Feed, _)));
+        nc.items.push(NcItem::Word(Role::Feed, Expr::Number(self.speed * self.lead)));
+        true
     }
 }
 
