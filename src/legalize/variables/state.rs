@@ -233,14 +233,19 @@ fn settled(
     let either = |state| matches!(state, Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear);
     let ours = if either(state) { holds_radii(source) } else { Some(false) };
     let theirs = if either(other) { holds_radii(target) } else { Some(false) };
-    match (ours, theirs) {
-        (Some(true), Some(false)) => 2.0 * factor,
-        (Some(false), Some(true)) => 0.5 * factor,
-        (Some(_), Some(_)) => factor,
-        _ => {
-            found.push((span, if either(state) { Finding::Table(other) } else { Finding::TargetTable }));
-            factor
-        }
+    // Where one of the two is stated, the other table is taken to hold diameters; where neither is, both to hold the same.
+    let open = match (ours, theirs) {
+        (Some(_), Some(_)) => (either(state) || either(other)).then_some(Finding::TablesHold),
+        (Some(_), None) => Some(Finding::TargetTable),
+        (None, None) => Some(Finding::Table(other)),
+        (None, Some(_)) if either(other) => Some(Finding::Table(Sys::RadiusGeometry)),
+        (None, Some(_)) => Some(Finding::Table(other)),
+    };
+    found.extend(open.map(|finding| (span, finding)));
+    match (ours.unwrap_or(false), theirs.unwrap_or(false)) {
+        (true, false) => 2.0 * factor,
+        (false, true) => 0.5 * factor,
+        _ => factor,
     }
 }
 
@@ -310,6 +315,12 @@ pub(in crate::legalize) fn table_factor(source: &Control, target: &Control) -> O
         (false, true) => 0.5,
         _ => 1.0,
     })
+}
+
+/// True for a cell of a cutter table whose number on the target is another one, as one table holds radii and the other diameters.
+pub(super) fn tables_differ(state: Sys, source: &Control, target: &Control) -> bool {
+    matches!(state, Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear)
+        && table_factor(source, target).is_some_and(|factor| factor != 1.0)
 }
 
 /// True for a block that writes into the cutter table: the size or its wear, both as the table has them.

@@ -3,6 +3,7 @@
 use super::meaning::{Meaning, State, last_number, meaning_by};
 use crate::canon::{Pause, Running, Sys};
 use crate::dialect::Control;
+use crate::legalize::variables::state::tables_differ;
 
 /// Numbers up to here are looked at one by one; most system variables are there.
 const DENSE: u32 = 99_999;
@@ -74,6 +75,7 @@ fn same(
         None if there.is_none() => None,
         Some(Meaning::State(Sys::Other, _)) if source.name() != target.name() => Some(false),
         Some(Meaning::State(Sys::StopMessage, _)) if !stops_alike(source, target) => Some(false),
+        Some(Meaning::State(state, _)) if tables_differ(*state, source, target) => Some(false),
         // A number that is written there may be one that the target does not take.
         Some(Meaning::State(state, _)) if takes_less(source, target, *state) => Some(false),
         Some(Meaning::State(..)) => {

@@ -10,7 +10,7 @@ use crate::ir::analysis;
 use crate::ir::eval::whole;
 use crate::ir::{Expr, constant_part};
 use crate::legalize::offsets::position_length;
-use crate::legalize::variables::state::SCALED;
+use crate::legalize::variables::state::{SCALED, tables_differ};
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -165,6 +165,9 @@ impl<'c> Numbers<'c> {
     /// The run of a state as far as the target has it at one distance.
     fn distance(&self, number: u32) -> Option<Finding> {
         let (state, _, row) = self.source.numbered_state(number)?;
+        if tables_differ(state, self.source, self.target) {
+            return None;
+        }
         let (first, last) = (row.first?, row.last()?);
         let distance = |number: u32| {
             let (name, there, found) = self.target.system_address(state, &row.subscripts_of(number)?)?;
