@@ -1,6 +1,7 @@
 //! Words: of NC blocks, and as arguments of calls.
 
 mod arguments;
+mod axis_words;
 mod bare;
 mod nc;
 mod roles;

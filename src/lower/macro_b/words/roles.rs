@@ -75,6 +75,9 @@ impl<'a> Lowering<'a> {
         if usual.role == Role::Speed {
             self.speed_of_stop(span, codes);
         }
+        if usual.role.is_axis() && own.is_none() && self.is_axis_beside(word.letter, span, codes) {
+            return None;
+        }
         if is_arc_word(usual.role) && !self.fits_arc(word, span, codes, own.is_some(), in_force) {
             return None;
         }
