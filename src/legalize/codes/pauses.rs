@@ -2,7 +2,9 @@
 //!
 //! Law: what the source ends at a stop is ended by codes before it, wherever no source says that the target's stop does so:
 //! that is the same on every control. An optional stop takes none, as nothing ends where it is switched off, and a tool
-//! change is left to the machine, unless its table says nothing of it and something is known to run. What a stop ends
+//! change is left to the machine, unless its table says nothing of it and something is known to run. Where the target's
+//! profile says that they end nothing there, both take them, an optional stop M5 only if the program says what turns before
+//! it cuts: where it is switched off, the target then does what the source does where it is on. What a stop ends
 //! matters after it where the program cuts before it says itself what runs: then the facts that no source confirms are
 //! named. A change that the target passes over where the tool is in the spindle ends nothing there, unless it is known to be another.
 //! What a message or a stop leaves running, and the target's stop ends, is started again after it where it is known, after an optional stop too.
@@ -65,6 +67,10 @@ fn ends(running: Running) -> (Group, Op) {
 /// One way has the spindle turning, and another one holds it.
 const LETS_GO: &str = "the M5 before this stop releases a spindle that M19 holds: write M3 or M19 again \
                        after the stop";
+
+/// A cut with coolant or without it, as the switch is.
+const DRY: &str = "M9 is written before this optional stop, as the target's leaves coolant on: where the switch is off, coolant \
+                   is off too until the program switches it on again; write M8 after the stop, before the next cut";
 
 /// Ends before stops what the source ends at them; true if that changed anything.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -314,8 +320,17 @@ impl Place<'_> {
             let (_, op) = ends(running);
             if here.answer == Some(true) && !(there.known && there.answer == Some(true) && is_one) {
                 let runs = self.state.op(ends(running).0).is_some_and(|op| starts(running).contains(&op));
-                let to_machine = moves || !runs || there.answer.is_some() && is_one;
-                let left = optional || (pause == Pause::Change && to_machine);
+                // A profile that says so is asked no more.
+                let ends_nothing = there.known && there.answer == Some(false);
+                let to_machine = moves || !ends_nothing && (!runs || there.answer.is_some() && is_one);
+                let cuts = matters && running == Running::Spindle;
+                let left = match pause {
+                    Pause::Change => to_machine,
+                    _ => optional && (cuts || !ends_nothing),
+                };
+                if optional && matters && !left {
+                    context.add_once(self.index, DRY, Diagnostic::new(Code::Conditional, span, DRY));
+                }
                 if !left {
                     if running == Running::Spindle
                         && self.holds

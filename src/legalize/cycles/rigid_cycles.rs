@@ -6,7 +6,7 @@
 //! speed is known for the code; the code for rigid taps stands in the way to the tap with no label between; a left-hand tap has no
 //! such cycle. Counter-example: a plain tap in a rigid holder, which takes up no difference between feed and turns.
 
-use super::rigid_taps::{SPEED, Told, always, code, told_before};
+use super::rigid_taps::{SPEED, Told, always, code, speed_word, told_before};
 use super::tap_leads::{Speed, Speeds};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
@@ -98,9 +98,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     changed = true;
                     become_of(nc, Op::CycleTapRigid, Op::CycleTap);
                     let turns = state.op(Group::SpeedMode) != Some(Op::SurfaceSpeed);
-                    match speed {
+                    match speed_word(speed, &stmt, context.target) {
                         _ if plain => {}
-                        Speed::Known(speed) if turns => {
+                        Some(speed) if turns => {
                             block.stmts.push(code(speed, &stmt));
                             told_before(&mut stmt, block.stmts.last());
                         }

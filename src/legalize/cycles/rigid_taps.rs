@@ -4,12 +4,12 @@
 //! written before each tap where the target's taps are rigid only by it. For a lathe it is written wherever they are not known to be
 //! rigid always, as it does no harm there; live tools get it where their cycle is written. Side conditions: the tap is the next thing
 //! that moves, and nothing turns the spindle between; the spindle does not turn to the left before a right-hand tap; S is a speed of
-//! turns.
+//! turns. One that the program computes is read back where the target can: `M29 S#4119`.
 //! Counter-example: a tap without the code on a control that has it feeds beside a spindle that follows nothing, and a
 //! rigid holder takes up no difference.
 
 use super::tap_leads::{Speed, Speeds};
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question};
 use crate::ir::analysis::over_calls::OverCalls;
@@ -54,6 +54,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let taps_somewhere =
         stmts().any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.ops().any(Op::is_tap) || is_open(nc)));
+    // Where speeds are of surfaces too, S is not the number that was said last.
+    let turns_always = !lathe && !stmts().any(|stmt| stmt.kind.has_op(Op::SurfaceSpeed));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
         for (at, block) in program.blocks.iter_mut().enumerate() {
@@ -68,6 +70,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
             for mut stmt in std::mem::take(&mut block.stmts) {
                 state.step(&stmt);
+                let said = if turns_always { speed } else { Speed::Unknown };
                 speed.step(&stmt);
                 let rigid = stmt.kind.has_op(Op::RigidTaps);
                 let taps = stmt.kind.nc().is_some_and(|nc| nc.ops().any(|op| is_asked(op, context.target)));
@@ -77,13 +80,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 }
                 if rigid && !keeps {
                     changed = true;
-                    take(&mut stmt);
+                    take(&mut stmt, said);
+                    if stmt.kind == StmtKind::Comment
+                        && stmt.site.comments.is_empty()
+                        && stmt.site.sequence.is_none()
+                    {
+                        continue;
+                    }
                 }
                 if all && taps && writes && !(lathe && coded) {
                     changed = true;
                     let turns = state.op(Group::SpeedMode) != Some(Op::SurfaceSpeed);
-                    match speed {
-                        Speed::Known(speed) if turns => {
+                    match speed_word(speed, &stmt, context.target) {
+                        Some(speed) if turns => {
                             block.stmts.push(code(speed, &stmt));
                             told_before(&mut stmt, block.stmts.last());
                         }
@@ -177,10 +186,15 @@ fn misplaced(block: &Block, mut state: Modal) -> Vec<(crate::text::Span, Told)> 
     found
 }
 
-/// Takes the code out of its block; the speed beside it stays.
-fn take(stmt: &mut Stmt) {
+/// Takes the code out of its block; the speed beside it stays, unless it is the one said before.
+fn take(stmt: &mut Stmt, said: Speed) {
     let StmtKind::Nc(nc) = &mut stmt.kind else { return };
     nc.items.retain(|item| *item != NcItem::Op(Op::RigidTaps));
+    let again = |value: &Expr| value.constant().is_some_and(|speed| said == Speed::Known(speed));
+    let turns = nc.ops().any(|op| op.is_tap() || op.group() == Group::Spindle);
+    if !turns {
+        nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Speed, value) if again(value)));
+    }
     if nc.items.is_empty() {
         stmt.kind = StmtKind::Comment;
     }
@@ -201,9 +215,25 @@ pub(super) fn told_before(tap: &mut Stmt, before: Option<&Stmt>) {
     }
 }
 
+/// The letter number of S in [`Sys::Address`].
+const ADDRESS_S: u32 = 19;
+
+/// What the code before a tap says of the speed: a number, or, where the program has said one that is computed, what the
+/// target has of the last speed. None where the tap's own block computes it.
+pub(super) fn speed_word(speed: Speed, tap: &Stmt, target: &Control) -> Option<Expr> {
+    let readable = || target.system_address(Sys::Address, &[ADDRESS_S]).is_some();
+    match speed {
+        Speed::Known(speed) => Some(Expr::Number(speed)),
+        Speed::Said if tap.kind.nc()?.word(Role::Speed).is_none() && readable() => {
+            Some(Expr::System(Sys::Address, [Expr::Number(f64::from(ADDRESS_S))].into()))
+        }
+        Speed::Said | Speed::Unknown => None,
+    }
+}
+
 /// The code with its speed, for a block of its own before a tap.
-pub(super) fn code(speed: f64, tap: &Stmt) -> Stmt {
-    let items = vec![NcItem::Op(Op::RigidTaps), NcItem::Word(Role::Speed, Expr::Number(speed))];
+pub(super) fn code(speed: Expr, tap: &Stmt) -> Stmt {
+    let items = vec![NcItem::Op(Op::RigidTaps), NcItem::Word(Role::Speed, speed)];
     let site = SourceInfo { span: tap.site.span, skip: tap.site.skip, ..SourceInfo::default() };
     Stmt { kind: StmtKind::Nc(Nc { items }), site }
 }

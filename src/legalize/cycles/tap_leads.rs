@@ -117,6 +117,8 @@ fn give_lead(nc: &mut Nc, speed: Speed, feed: Option<f64>, mode: Option<Op>) -> 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Speed {
     Known(f64),
+    /// The program says one on every way, which is computed, or another one each time.
+    Said,
     Unknown,
 }
 
@@ -129,15 +131,25 @@ impl Speed {
             return;
         };
         if let Some(value) = nc.word(Role::Speed) {
-            let now = value.constant().map_or(Self::Unknown, Self::Known);
-            *self = if stmt.site.skip.is_some() && *self != now { Self::Unknown } else { now };
+            let now = value.constant().map_or(Self::Said, Self::Known);
+            *self = if stmt.site.skip.is_some() { self.either(now) } else { now };
+        }
+    }
+}
+
+impl Speed {
+    fn either(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
+            _ if self == other => self,
+            _ => Self::Said,
         }
     }
 }
 
 impl Lattice for Speed {
     fn join(&mut self, other: &Self) -> bool {
-        let joined = if self == other { *self } else { Self::Unknown };
+        let joined = self.either(*other);
         std::mem::replace(self, joined) != joined
     }
 }
