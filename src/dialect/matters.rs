@@ -15,7 +15,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:cycle.back.bore", "back boring shifts, dives, shifts back, and feeds up"),
     ("machine:cycle.other", "a drilling cycle of this control alone moves nothing"),
     ("machine:cycle.peck.missing", "a peck cycle that is told no depth of its pecks drills in one go"),
-    ("machine:cycle.shift.direction", "the shift of a boring cycle goes in plus along the plane's first axis"),
+    (
+        "machine:cycle.shift.direction",
+        "the shift of a boring cycle goes in plus along the plane's first axis",
+    ),
     (
         "machine:distance.code.behind.words",
         "an absolute or incremental code after words counts for the whole block",

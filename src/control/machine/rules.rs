@@ -155,6 +155,7 @@ pub struct Rules {
     pub length_after_change: Fact<LengthAfter>,
     pub mirrors_about_word: Fact<bool>,
     pub mirror_off_names: Fact<bool>,
+    pub mirror_off_bare: Fact<()>,
     pub positions_hold_length: Fact<bool>,
     /// What codes of the frame do under a rotation, a scale or a mirror is nowhere another answer.
     pub frame_codes_when_shaped: Fact<()>,
@@ -340,6 +341,7 @@ impl Rules {
             positions_hold_length: fact(control, Question::PositionLength, word("added", "left.out"), false),
             mirror_off_names: fact(control, Question::MirrorOffAxes, word("named", "all"), true)
                 .or_silent(control, Question::MirrorOffAxes),
+            mirror_off_bare: fact(control, Question::MirrorOffBare, only("all"), ()),
             mirrors_about_word: fact(control, Question::MirrorAbout, word("word", "zero"), true),
             frame_codes_when_shaped: fact(control, Question::ShapeFrameCodes, only("kept"), ()),
             scale_reaches_cycle: fact(control, Question::ScaleReachesCycle, only("true"), ()),

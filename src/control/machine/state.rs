@@ -120,6 +120,9 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
                 let axes = machine.named_axes(command);
                 let named = |axis: usize| axes.iter().any(|(named, _)| *named == axis);
                 let left = (0..AXES).any(|axis| machine.frame.mirror[axis].is_some() && !named(axis));
+                if axes.is_empty() && left {
+                    machine.rules.mirror_off_bare.ask(trace);
+                }
                 let all = axes.is_empty() || left && !machine.rules.mirror_off_names.ask(trace);
                 for axis in (0..AXES).filter(|axis| all || named(*axis)) {
                     machine.frame.mirror[axis] = None;

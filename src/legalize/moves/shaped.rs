@@ -5,7 +5,7 @@
 //! under a rotation, and scaling may stand with a drilling cycle, only where that is known of both controls; where it is
 //! not, the place is for review. Where it ends: a mirror about another coordinate than the work zero is refused where
 //! the target mirrors about the zero. The end of mirroring names no axes where a control is not known to take them and the block
-//! ends all. An angle or a factor that is not written, which each control takes from a setting of its
+//! ends all; and it names those that the library mirrors where the target is not known to end all by the code alone. An angle or a factor that is not written, which each control takes from a setting of its
 //! own, is written out where the source's profile has it, and refused where not.
 
 use crate::canon::{Group, Op, Role};
@@ -19,6 +19,7 @@ use std::collections::BTreeSet;
 
 const ABOUT: Question = Question::MirrorAbout;
 const OFF: Question = Question::MirrorOffAxes;
+const BARE: Question = Question::MirrorOffBare;
 const FRAME: Question = Question::ShapeFrameCodes;
 const SCALE: Question = Question::ScaleReachesCycle;
 
@@ -36,6 +37,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
             if let StmtKind::Nc(nc) = &mut stmt.kind {
                 mirror_off(nc, &mirrored, (index, span), context);
+                name_axes(nc, &mirrored, (index, span), context);
                 write_out(nc, context.source);
             }
             if let Some((what, op, role)) = stmt.kind.nc().and_then(from_setting)
@@ -124,6 +126,25 @@ fn mirror_off(
     }
     if theirs {
         context.rests_on_target(index, span, OFF);
+    }
+}
+
+/// Names the axes whose mirroring a block ends, where the target is not known to end all by the code alone.
+fn name_axes(
+    nc: &mut Nc,
+    mirrored: &BTreeSet<Role>,
+    (index, span): (usize, Span),
+    context: &mut Context<'_>,
+) {
+    if !nc.has(Op::MirrorOff) || axes(nc).next().is_some() {
+        return;
+    }
+    let ends_all = |control: &Control| control.behaviour(BARE).is_none_or(|row| row.value == "all");
+    if !ends_all(context.source) && !context.source.is_same_machine(context.target) {
+        context.rests_on_source(index, span, BARE);
+    }
+    if !ends_all(context.target) {
+        nc.items.extend(mirrored.iter().map(|role| NcItem::Word(*role, Expr::Number(0.0))));
     }
 }
 
