@@ -196,7 +196,12 @@ fn choice(
     let words = nc.items.iter().any(|item| matches!(item, NcItem::Word(..)));
     let group = row.op.group();
     let clashes = |op: Op| op.group() == group && group != Group::OneShot;
+    // Only the profile can say whether they are words of a builder's code.
+    let of_machine = |role: Role| matches!(role, Role::Feed | Role::Speed | Role::Tool | Role::Turret);
+    let loose = |item: &NcItem| matches!(item, NcItem::Word(role, _) if letter == 'G' || !of_machine(*role));
+    let whose = row.op == Op::Act && (letter == 'G' || !nc.names_axis()) && nc.items.iter().any(loose);
     let odd = (row.op.is_flow() && !ends)
+        || whose
         || row.op == Op::LimitLookahead
         || (words && !row.words.is_empty())
         || nc.ops().any(clashes)

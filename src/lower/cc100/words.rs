@@ -6,6 +6,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Question};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
+use crate::lower::common::may_take;
 use crate::syntax::{ExprKind, Item, Word};
 use crate::text::Span;
 
@@ -142,9 +143,19 @@ impl<'a> Lowering<'a> {
             }
         }
         let rows: Vec<&CodeMeaning> = codes.iter().flatten().filter_map(Meaning::code).collect();
+        let is_axis =
+            |word: &Word| self.control.role(word.letter, word.comma, None).is_some_and(Role::is_axis);
+        let moves = words.iter().any(|(word, _)| is_axis(word));
         let mut all = Vec::new();
         for ((word, span), code) in words.iter().zip(codes) {
             let meaning = code.or_else(|| self.role(word, &rows, *span).map(Meaning::Role));
+            let named = rows.iter().any(|row| row.words.contains_key(&*word.letter.to_string()));
+            if let Some(Meaning::Role(role)) = &meaning
+                && !named
+                && let Some(row) = may_take(rows.iter().copied(), *role, moves)
+            {
+                self.findings.beside_code(word.letter, *role, &row.code, *span);
+            }
             if meaning.is_none() {
                 let message = format!("no source says what {} means here", word.letter);
                 self.findings.not_understood(*span, message);

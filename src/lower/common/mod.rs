@@ -1,12 +1,14 @@
 //! What the lowerings of all dialects need: findings that name a fact once,
 //! the site of a block, constants, what may be in force.
 
+mod beside_codes;
 mod findings;
 mod in_force;
 mod nowhere;
 mod programs;
 mod site;
 
+pub use beside_codes::may_take;
 pub use findings::{Findings, otherwise};
 pub use in_force::InForce;
 pub use nowhere::Nowhere;

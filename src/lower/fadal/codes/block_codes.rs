@@ -43,7 +43,7 @@ impl<'b, 'c> Codes<'b, 'c> {
     }
 
     /// The codes with a meaning.
-    pub fn known(&self) -> impl Iterator<Item = &'c CodeMeaning> + '_ {
+    pub fn known(&self) -> impl Iterator<Item = &'c CodeMeaning> + Clone + '_ {
         self.rows.iter().filter_map(|(_, row)| *row)
     }
 
@@ -55,6 +55,14 @@ impl<'b, 'c> Codes<'b, 'c> {
     /// True where the block has the operation.
     pub fn has(&self, op: Op) -> bool {
         self.known().any(|row| row.op == op)
+    }
+
+    /// True where a code of the block names a letter among its words.
+    pub fn names(&self, letter: char, comma: bool) -> bool {
+        let is_it = |written: &String| {
+            written.starts_with(',') == comma && written.trim_start_matches(',').starts_with(letter)
+        };
+        self.known().any(|row| row.words.keys().any(is_it))
     }
 
     /// True for a letter whose value only picks the meaning of a code: L of `G10 L2`.

@@ -7,7 +7,7 @@ use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Argument, Class, Expr, Nc, NcItem, Place, StmtKind, Var};
-use crate::lower::common::{constant, says_something};
+use crate::lower::common::{constant, may_take, says_something};
 use crate::lower::fadal::build::{Lowering, PLANE};
 use crate::lower::fadal::codes::{Codes, FIRST_FIXED, LWord, Step, is_code, l_word, steps, word};
 use crate::syntax::{self, Index, Item, ItemKind, VarRef, Word};
@@ -24,15 +24,16 @@ impl<'b> Lowering<'b> {
         if let Some(number) = fixed_call(&steps) {
             return self.fixed_call(items, codes, number, span);
         }
+        let axes = self.has_axes(items, codes);
         let mut reading = Reading {
             codes,
             modal: self.modal_row(codes),
             assigned: Vec::new(),
             read: Vec::new(),
             items: Vec::new(),
+            moves: axes,
             span,
         };
-        let axes = self.has_axes(items, codes);
         for (at, item) in items.iter().enumerate() {
             match &item.kind {
                 ItemKind::Word(word) => self.nc_word(item, word, &mut reading)?,
@@ -141,6 +142,12 @@ impl<'b> Lowering<'b> {
             let message = format!("the table has no meaning for {} here", word.letter);
             return self.refuse(item.span, message);
         };
+        if !reading.codes.names(word.letter, word.comma)
+            && let Some(row) = may_take(reading.codes.known(), role, reading.moves)
+        {
+            self.findings.beside_code(word.letter, role, &row.code, item.span);
+            return Some(());
+        }
         if self.hangs_on_cycle(word, role, reading.codes) {
             let message = format!(
                 "{} depends on the drilling cycle in force, and the paths to this block have different ones",

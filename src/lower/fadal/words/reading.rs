@@ -16,5 +16,7 @@ pub(super) struct Reading<'b, 'c> {
     /// The variables that its words read.
     pub(super) read: Vec<Var>,
     pub(super) items: Vec<NcItem>,
+    /// True for a block with axis words.
+    pub(super) moves: bool,
     pub(super) span: Span,
 }

@@ -58,6 +58,8 @@ pub struct Lowering<'a> {
     pub inverse: bool,
     /// True after what ended the run, or left by a jump, where no block since can be jumped to.
     pub is_over: bool,
+    /// True where the block at hand has axis words beside a code that may take words.
+    pub moves: bool,
 }
 
 /// A loop that has begun.
@@ -133,6 +135,7 @@ impl<'a> Lowering<'a> {
             lookahead_limited: false,
             inverse: false,
             is_over: false,
+            moves: false,
         }
     }
 

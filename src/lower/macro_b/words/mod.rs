@@ -1,8 +1,8 @@
 //! Words: of NC blocks, and as arguments of calls.
 
 mod arguments;
-mod axis_words;
 mod bare;
+mod beside;
 mod nc;
 mod roles;
 mod turning;

@@ -48,9 +48,13 @@ impl<'a> Lowering<'a> {
             Some((_, row)) => Some(*row),
             None => self.motion.code.and_then(|id| self.codes.get(id)?.row),
         };
-        if let Some(row) = in_force
-            && let Some(role) = explicit(row, word)
+        let modal = in_force.and_then(|row| explicit(row, word));
+        if let Some(role) = modal.or(usual.filter(|_| !word.comma).map(|usual| usual.role))
+            && self.is_beside(word.letter, role, span, codes)
         {
+            return None;
+        }
+        if let Some((row, role)) = in_force.zip(modal) {
             if self.motion.joined && usual.is_none_or(|usual| usual.role != role) {
                 self.assumes(word, span, &format!("'{role}' of {} above", row.code));
             }
@@ -74,9 +78,6 @@ impl<'a> Lowering<'a> {
         }
         if usual.role == Role::Speed {
             self.speed_of_stop(span, codes);
-        }
-        if usual.role.is_axis() && own.is_none() && self.is_axis_beside(word.letter, span, codes) {
-            return None;
         }
         if is_arc_word(usual.role) && !self.fits_arc(word, span, codes, own.is_some(), in_force) {
             return None;
