@@ -295,14 +295,21 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
     found.push((span, own(*state, subscripts, source).unwrap_or_else(missing)));
 }
 
-/// A variable that only the source's control has.
+/// A variable that only the source's control has: one of its own, or the last value of a letter.
 fn own(state: Sys, subscripts: &[Expr], source: &Control) -> Option<Finding> {
-    if state != Sys::Other {
-        return None;
-    }
+    let letter = match state {
+        Sys::Other => None,
+        Sys::Address | Sys::AddressNow => Some(subscripts.first()?.constant().filter(|n| *n >= 1.0)? as u8),
+        _ => return None,
+    };
     let numbers: Option<Vec<u32>> = subscripts.iter().map(|s| s.constant().map(|n| n as u32)).collect();
     let (name, number, row) = source.system_address(state, &numbers?)?;
-    Some(Finding::Own(format!("{name}{}", number?), row.origin.note.clone()))
+    let letter = letter.and_then(|letter| (b'A'..=b'Z').nth(usize::from(letter) - 1));
+    let last = letter.map(|letter| match state {
+        Sys::AddressNow => format!("the {} of its block", char::from(letter)),
+        _ => format!("the last {}", char::from(letter)),
+    });
+    Some(Finding::Own(format!("{name}{}", number?), row.origin.note.clone().or(last)))
 }
 
 /// By what a number of the source's cutter table is multiplied to be one of the target's; none if nobody stated

@@ -66,7 +66,8 @@ impl Finding {
             Finding::Own(variable, note) => {
                 let note = note.map(|note| format!(" ({note})")).unwrap_or_default();
                 let what = format!("no variable of {title} is known to hold what {variable}{note} holds");
-                let help = "write the number that is meant in its place, or take out what reads or sets it";
+                let help = "if nothing that runs here needs it, take out what reads or sets it; else write the number that is \
+                            meant in its place";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
             }
             Finding::ReadOnly(state) => {
