@@ -74,9 +74,9 @@ pub(super) fn in_words(moves: &[Moved]) -> String {
     let said = rows.filter_map(|row| {
         let (first, last) = (row.first()?, row.last()?);
         Some(match row.len() {
-            1 => format!("{} is {} on the target", as_written(&first.1), as_written(&first.2)),
+            1 => format!("{} is {}", as_written(&first.1), as_written(&first.2)),
             _ => format!(
-                "{} to {} are {} to {} on the target",
+                "{} to {} are {} to {}",
                 as_written(&first.1),
                 as_written(&last.1),
                 as_written(&first.2),
@@ -84,7 +84,7 @@ pub(super) fn in_words(moves: &[Moved]) -> String {
             ),
         })
     });
-    in_a_sentence(&said.collect::<Vec<_>>())
+    format!("on the target {}", in_a_sentence(&said.collect::<Vec<_>>()))
 }
 
 /// The sentence about variables.

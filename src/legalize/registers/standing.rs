@@ -82,7 +82,7 @@ fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Conte
             continue;
         }
         let what = format!(
-            "programs that stand on the target know variables by their numbers on the source, and here {}: they find \
+            "programs that stand on the target know variables by their numbers on the source, and {}: they find \
              other values, or set others",
             in_words(&moves)
         );
