@@ -41,6 +41,7 @@ mod rows;
 mod second_home;
 mod signals;
 mod site;
+mod site_lines;
 mod site_rows;
 mod spelling;
 mod standing;

@@ -60,7 +60,7 @@ pub struct Profile {
     pub programs: Vec<String>,
     /// Facts that the shop has checked, by the name that diagnostics give them.
     pub confirm: Vec<String>,
-    /// Codes that the machine's builder or the shop defined.
+    /// Codes that the machine's builder or the shop defined: rows of `[[site]]`, and lines of `[codes]`.
     pub site: Vec<SiteCode>,
     /// What is wired to the inputs and outputs.
     pub signal: Vec<Signal>,
@@ -275,7 +275,9 @@ impl Profile {
                 flatten(table, 0);
             }
         }
-        let places = places(&document);
+        let mut places = places(&document);
+        super::site_lines::join(&mut document, &mut reader);
+        places.extend(self::places(&document));
         let whole = toml::Spanned::new(0..0, DeValue::Table(document));
         let profile = reader.value::<Profile>(whole);
         match profile {

@@ -18,7 +18,8 @@ pub struct SiteCode {
     /// What it does in common terms; absent for what only builders' codes do.
     #[serde(default)]
     pub op: Option<Op>,
-    /// What it does, in words.
+    /// What it does, in words; empty where nobody said it.
+    #[serde(default)]
     pub text: String,
     /// Operands that the code itself fixes.
     #[serde(default)]
@@ -65,6 +66,19 @@ pub enum Without {
 }
 
 impl SiteCode {
+    /// What it does, in words, if the profile says it.
+    fn said(&self) -> Option<&str> {
+        Some(self.text.trim()).filter(|text| !text.is_empty())
+    }
+
+    /// The code for people: `M14 (chuck air on)`.
+    pub fn shown(&self) -> String {
+        match self.said() {
+            Some(text) => format!("{} ({text})", self.code),
+            None => self.code.clone(),
+        }
+    }
+
     /// Its letter and number.
     pub(super) fn head(&self) -> Option<CodeHead> {
         self.row(None).head()
@@ -103,7 +117,7 @@ impl SiteCode {
             }
             (None, None) => Op::Builder,
         };
-        let origin = Origin::of_profile(Some(self.text.clone()));
+        let origin = Origin::of_profile(self.said().map(str::to_owned));
         CodeMeaning {
             code: self.code.clone(),
             also: Vec::new(),

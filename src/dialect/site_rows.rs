@@ -55,9 +55,12 @@ impl Overlay {
 
     fn check_site(&mut self, site: &SiteCode, row: &CodeMeaning, dialect: &Dialect) {
         let code = &site.code;
-        if site.text.trim().is_empty() {
-            let help = "write in a few words what it does: text = \"chuck air on\"";
-            self.site_fault(site, format!("{code} has an empty 'text'"), help);
+        if matches!(site.without, Some(Without::Stop | Without::Alarm)) && site.text.trim().is_empty() {
+            let help =
+                "write in a few words what the operator must do or know there: text = \"chuck air on\"";
+            let message =
+                format!("{code} has no 'text', which is the message of the stop or alarm in its place");
+            self.site_fault(site, message, help);
         }
         if row.op.is_flow()
             || matches!(row.op, Op::MachineSpecific | Op::Act | Op::Builder) && site.op.is_some()

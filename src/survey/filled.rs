@@ -67,8 +67,15 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     if !start.is_empty() {
         asked.insert("start", lines_of_start(&start, control.profile().start.codes.as_deref()));
     }
+    let codes = match side {
+        Side::Source => super::site_rows::lines(survey),
+        Side::Target => super::there::lines(survey),
+    };
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;
+    }
+    if !codes.is_empty() {
+        text = inserted(&text, super::site_rows::SECTION, &codes)?;
     }
     let point = survey.with_questions(|questions| point(questions, control));
     let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
@@ -78,13 +85,10 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), (&unit, rotary));
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
-    match side {
-        Side::Source => {
-            text = super::variables::asked_in(&text, survey);
-            super::site_rows::rows(&mut text, survey);
-        }
-        Side::Target => text = super::there::asked_in(&text, survey),
-    }
+    text = match side {
+        Side::Source => super::variables::asked_in(&text, survey),
+        Side::Target => super::programs::asked_in(&text, survey),
+    };
     match read(&text)? == before {
         true => Ok(text),
         false => Err(Unfit("they would change what it says".into())),
@@ -315,9 +319,8 @@ mod tests {
     fn a_new_profile_asks_for_each_code_once() {
         let text = filled_for(PROGRAM, None);
         for line in [
-            "#? code = \"M14\"",
-            "#? text = \"CHUCK AIR\" # as in: M14 (CHUCK \"AIR\")",
-            "#? text = \"DOOR\" # as in: M38",
+            "#? M14 = { target = \"\", text = \"CHUCK AIR\" } # a.nc:3; as in: M14 (CHUCK \"AIR\")",
+            "#? M38 = { target = \"\", text = \"DOOR\" } # a.nc:5; as in: M38",
         ] {
             assert_eq!(text.lines().filter(|own| *own == line).count(), 1, "{line}\n{text}");
         }
@@ -332,6 +335,7 @@ mod tests {
             "# mine\ndialect = \"fanuc\"\nconfirm = []\n[settings]\nm_stop = \"end\"",
             "dialect = \"fanuc\" # 0i\nunits = \"metric\"\nconfirm = [\"numbers\"]\n\n[behaviours] # found\n\n[[site]]\ncode = \
              \"M14\"\ntext = \"air\"\ndo = \"omit\"\n",
+            "dialect = \"fanuc\"\n[codes]\nM14 = { do = \"omit\" }\n[[site]]\ncode = \"M38\"\ndo = \"omit\"\n",
         ] {
             let once = filled_for(PROGRAM, Some(profile));
             assert_eq!(said(&once), said(&filled_for(PROGRAM, Some(&once))), "{once}");
@@ -345,12 +349,10 @@ mod tests {
     #[test]
     fn what_is_answered_stays_and_is_not_asked_again() {
         let text = filled_for(PROGRAM, None);
-        let code = "#? code = \"M14\"\n#? text = \"CHUCK AIR\"";
-        let at = text[..text.find(code).unwrap()].rfind("#? [[site]]").unwrap();
-        let (before, after) = text.split_at(at);
-        let answered = format!("{before}[[site]]\ncode = \"M14\"\ntext = \"air\"\ndo = \"omit\"\n{after}");
+        let answered = text.replace("#? M14 = { target = \"\",", "M14 = { do = \"omit\",");
         let again = filled_for(PROGRAM, Some(&answered));
-        assert!(!again.contains("#? code = \"M14\"") && again.contains("#? code = \"M38\""), "{again}");
+        assert!(!again.contains("#? M14 =") && again.contains("#? M38 ="), "{again}");
+        assert!(again.contains("\nM14 = { do = \"omit\", text = \"CHUCK AIR\" } #"), "{again}");
         assert_eq!(Profile::read(&again).unwrap().site.len(), 1);
     }
 

@@ -3,6 +3,7 @@
 use super::Survey;
 use super::filled::{ASKS, TELLS, plain};
 use super::shape::{NAMED, Places};
+use super::site_rows::{in_braces, key, said};
 use crate::diag::Asks;
 use crate::dialect::{Control, SiteCode};
 use crate::library::ProgramReport;
@@ -50,39 +51,32 @@ fn site<'c>(source: &'c Control, name: &str) -> Option<&'c SiteCode> {
     source.profile().site.iter().find(|site| site.name.as_deref() == Some(name))
 }
 
-/// The target's profile with the questions of programs that may stand there, and a row to fill in for each name.
-pub(super) fn asked_in(text: &str, survey: &Survey<'_>) -> String {
-    let mut text = super::programs::asked_in(text, survey);
-    if !survey.there.is_empty() {
-        rows(&mut text, survey);
+/// A line of the target's profile to fill in for each name.
+pub(super) fn lines(survey: &Survey<'_>) -> String {
+    let mut text = String::new();
+    if survey.there.is_empty() {
+        return text;
     }
-    text
-}
-
-fn rows(text: &mut String, survey: &Survey<'_>) {
-    let _ = writeln!(
-        text,
-        "{TELLS} Which codes of this machine do what these of the source do: its page of M codes says it. Where it has none, leave the"
-    );
-    let _ = writeln!(
-        text,
-        "{TELLS} row out, and write do = \"omit\", \"stop\" or \"alarm\" at the source's code: docs/builders-codes.md."
-    );
+    for told in [
+        "Which codes of this machine do what these of the source do: its page of M codes says it. Write each between the quotes that",
+        "stand first. Where it has none, leave the line out, and write do = \"omit\", \"stop\" or \"alarm\" at the source's code:",
+        "docs/builders-codes.md.",
+    ] {
+        let _ = writeln!(text, "{TELLS} {told}");
+    }
     for asked in &survey.there {
         let Some(site) = site(survey.controls[0], &asked.name) else { continue };
+        let words: Vec<String> =
+            site.words.iter().map(|(letter, name)| format!("{letter} = \"{name}\"")).collect();
+        let by = if words.is_empty() { "" } else { "; its words by the letters of its code here" };
+        let keys = [Some(format!("name = \"{}\"", asked.name)), said(&site.text), in_braces(&words)];
+        let keys: Vec<String> = keys.into_iter().flatten().collect();
         let programs =
             if asked.programs == 1 { String::new() } else { format!("{} programs: ", asked.programs) };
-        let _ = writeln!(text, "{ASKS} [[site]] # {programs}{}", plain(&asked.places.join(", ")));
-        let _ = writeln!(text, "{ASKS} code = \"\" # {} of the source", plain(&asked.code));
-        let _ = writeln!(text, "{ASKS} name = \"{}\"", asked.name);
-        let said = |letter: &char| !letter.is_control() && !"\"\\".contains(*letter);
-        let _ = writeln!(text, "{ASKS} text = \"{}\"", site.text.chars().filter(said).collect::<String>());
-        if !site.words.is_empty() {
-            let words: Vec<String> =
-                site.words.iter().map(|(letter, name)| format!("{letter} = \"{name}\"")).collect();
-            let _ = writeln!(text, "{ASKS} words = {{ {} }} # by the letters of its code", words.join(", "));
-        }
+        let about = format!("{} of the source; {programs}{}{by}", asked.code, asked.places.join(", "));
+        let _ = writeln!(text, "{ASKS} {} = {{ {} }} # {}", key(""), keys.join(", "), plain(&about));
     }
+    text
 }
 
 #[cfg(test)]
@@ -108,11 +102,8 @@ mod tests {
     fn names_that_the_target_lacks_are_rows_of_its_profile() {
         let text = target_of("dialect = \"haas\"\nmachine = \"lathe\"\n");
         for line in [
-            "#? code = \"\" # M68 of the source",
-            "#? name = \"chuck.clamp\"",
-            "#? text = \"clamps the chuck\"",
-            "#? name = \"bar.feed\"",
-            "#? words = { P = \"pieces\" } # by the letters of its code",
+            "#? \"\" = { name = \"chuck.clamp\", text = \"clamps the chuck\" } # M68 of the source; a.nc:3, a.nc:5",
+            "#? \"\" = { name = \"bar.feed\", text = \"feeds the bar\", words = { P = \"pieces\" } } # M50 of the source; a.nc:4; its words by the letters of its code here",
         ] {
             assert_eq!(text.lines().filter(|found| *found == line).count(), 1, "{line} in {text}");
         }
@@ -123,7 +114,7 @@ mod tests {
         let has = "dialect = \"haas\"\nmachine = \"lathe\"\n[[site]]\ncode = \"M10\"\nname = \"chuck.clamp\"\ntext = \"clamps\"\n";
         let text = target_of(has);
         assert!(
-            !text.contains("#? name = \"chuck.clamp\"") && text.contains("#? name = \"bar.feed\""),
+            !text.contains("name = \"chuck.clamp\", ") && text.contains("name = \"bar.feed\", "),
             "{text}"
         );
     }

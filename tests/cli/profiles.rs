@@ -359,8 +359,8 @@ fn each_way_to_be_wrong_is_told_at_its_place() {
             &["p.toml:2:12", "the byte E4", "save the file as UTF-8"],
         ),
         (
-            b"dialect = \"fanuc\"\n[[site]]\ncode = \"M9\"\nname = \"x\"\n",
-            &["p.toml:2:1", "'text' is missing here"],
+            b"dialect = \"fanuc\"\n[[site]]\ntext = \"air\"\nname = \"x\"\n",
+            &["p.toml:2:1", "'code' is missing here"],
         ),
     ];
     for (text, says) in cases {

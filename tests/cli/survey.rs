@@ -67,20 +67,21 @@ fn what_is_filled_in_frees_programs() {
     let survey = "survey lib/o1000.nc --from fanuc --to haas --write m1.toml";
     assert_eq!(shop.run(survey).code, 0);
     let asked = shop.read("m1.toml");
-    assert!(
-        asked.contains(
-            "#? code = \"M14\"\n#? text = \"CHUCK AIR\" # as in: M14 (CHUCK AIR)\n#? target = \"\" # or"
-        ),
-        "{asked}"
-    );
+    let line = "\n#? M14 = { target = \"\", text = \"CHUCK AIR\" } # o1000.nc:3; as in: M14 (CHUCK AIR)\n";
+    assert!(asked.contains("\n[codes]\n#: What the machine's builder made"), "{asked}");
+    assert!(asked.contains(line), "{asked}");
     assert!(shop.read("m1-to-haas.toml").starts_with("dialect = \"haas\"\n"));
-    let answered =
-        asked.replace("#? [[site]]", "[[site]]").replace("#? code", "code").replace("#? text", "text");
-    shop.write("m1.toml", answered.replace("#? target = \"\"", "do = \"omit\"").as_bytes());
+    // Without an answer the line is a fault at its own place.
+    let unanswered = asked.replace("#? M14", "M14");
+    shop.write("m1.toml", unanswered.as_bytes());
+    let run = shop.run(survey);
+    assert!(run.code == 2 && run.err.contains("'' is not a code"), "{}", run.err);
+    shop.write("m1.toml", unanswered.replace("target = \"\"", "do = \"omit\"").as_bytes());
     let again = json(&shop, &format!("{survey} --format json"));
     assert_eq!((&again["codes"], &again["now"]["refused"]), (&serde_json::json!([]), &0.into()));
     let kept = shop.read("m1.toml");
-    assert!(kept.contains("\ncode = \"M14\"\n") && !kept.contains("#? code"), "{kept}");
+    assert!(kept.contains("\nM14 = { do = \"omit\", text = ") && !kept.contains("#? M14"), "{kept}");
+    assert_eq!(kept.matches("[codes]").count(), 1, "{kept}");
     let convert =
         "convert lib/o1000.nc --from fanuc --to haas --machine m1.toml --machine m1-to-haas.toml --out out";
     assert_eq!(shop.run(convert).code, 0);
@@ -253,8 +254,8 @@ fn what_clamps_an_axis_for_a_hole_is_asked_with_what_lets_it_go() {
         "{survey}"
     );
     let asked = shop.read("a.toml");
-    assert!(asked.contains("\n#? code = \"M89\"\n#? text = \"\" # as in: "), "{asked}");
-    assert!(asked.contains("\n#? code = \"M90\"\n#? text = \"\" # goes with: "), "{asked}");
+    assert!(asked.contains("\n#? M89 = { target = \"\" } # a.nc:7, a.nc:8; as in: "), "{asked}");
+    assert!(asked.contains("\n#? M90 = { target = \"\" } # a.nc:7, a.nc:8; goes with: "), "{asked}");
     let site = |code: &str, target: &str| {
         format!("[[site]]\ncode = \"{code}\"\ntext = \"clamp\"\ntarget = \"{target}\"\n")
     };
@@ -344,13 +345,13 @@ fn a_builders_code_is_asked_with_its_words() {
     ]);
     assert_eq!(shop.run("survey lib --from fanuc --to haas --write m.toml").code, 0);
     let asked = shop.read("m.toml");
-    assert!(asked.contains("\n#? words = { P = \"P\" } # "), "{asked}");
-    assert!(asked.contains("\n#? words = { A = \"A\", Q = \"Q\" } # "), "{asked}");
+    assert!(asked.contains("\n#? M200 = { target = \"\", words = { P = \"P\" } } # "), "{asked}");
+    assert!(asked.contains("\n#? G190 = { target = \"\", words = { A = \"A\", Q = \"Q\" } } # "), "{asked}");
     // Beside a place it may be the word of another code.
-    assert_eq!(asked.matches("#? words").count(), 2, "{asked}");
-    let answered = asked.replace("#? [[site]]", "[[site]]").replace("#? code", "code");
-    let answered = answered.replace("#? text = \"\"", "text = \"a\"").replace("#? words", "words");
-    let answered = answered.replace("#? target = \"\"", "do = \"omit\"");
+    assert_eq!(asked.matches(", words = ").count(), 2, "{asked}");
+    // A line that is left out needs no text.
+    let answered = asked.replace("#? M2", "M2").replace("#? G190", "G190");
+    let answered = answered.replace("target = \"\"", "do = \"omit\"");
     let unit = "units = \"metric\"\ndecimal_point = \"calculator\"\n";
     shop.write("m.toml", answered.replacen('\n', &format!("\n{unit}"), 1).as_bytes());
     let run = shop.run("convert lib/a.nc --machine m.toml --to haas --out out");
@@ -380,7 +381,9 @@ fn words_beside_codes_of_the_spindle_are_asked_once() {
         let run = shop.run(survey);
         assert_eq!(run.code, 0, "{}{}", run.out, run.err);
         let (ours, theirs) = (shop.read("f.toml"), shop.read("h.toml"));
-        for line in ["#? code = \"M3 P11\"\n", "#? code = \"M5 P11\"\n", "#? op = \"spindle.cw\" # "] {
+        for line in
+            ["#? \"M3 P11\" = { op = \"spindle.cw\" } # ", "#? \"M5 P11\" = { op = \"spindle.stop\" } # "]
+        {
             assert_eq!(ours.matches(line).count(), 1, "{line}{ours}");
         }
         for text in [&ours, &theirs] {
@@ -388,8 +391,7 @@ fn words_beside_codes_of_the_spindle_are_asked_once() {
         }
     }
     for (name, path) in [("f.toml", shop.read("f.toml")), ("h.toml", shop.read("h.toml"))] {
-        let text = path.replace("#? [[site]]", "[[site]]").replace("#? code", "code").replace("#? op", "op");
-        let text = text.replace("#? text = \"\"", "text = \"a\"").replace("#? words", "words");
+        let text = path.replace("#? \"M", "\"M").replace("#? words", "words");
         shop.write(name, text.as_bytes());
     }
     let run = shop.run("convert lib/a.nc --machine f.toml --machine h.toml --to haas --out out");

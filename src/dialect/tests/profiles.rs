@@ -71,11 +71,11 @@ fn profiles_that_say_nonsense_are_wrong() {
         "variables = [\"V1-V99\"]\nreserved = [\"V90-V100\", \"R9\"]",
         "confirm = [\"code:G28\", \"code:M77\"]",
         "work_offsets = 0",
-        "[limits]\nbrackets = 0",
     ] {
         let text = format!("dialect = \"fadal\"\n{fine}");
         assert!(Control::from_profile(&text).is_ok(), "{fine}");
     }
+    assert!(Control::from_profile("dialect = \"fanuc\"\n[limits]\nbrackets = 0").is_ok());
     // An option that was not bought, and a code of another setting.
     let fanuc = "dialect = \"fanuc\"\noptions = []\nconfirm = [\"code:G54.1\", \"code:G57\"]";
     assert!(Control::from_profile(fanuc).is_ok());

@@ -1,7 +1,7 @@
 //! Rows of builders' codes in machine profiles.
 
 use crate::canon::{Act, Op, Role, Sys};
-use crate::dialect::{Control, faults_as_text};
+use crate::dialect::{Control, Profile, faults_as_text};
 
 fn refused(dialect: &str, rows: &str, expected: &str) {
     let text = format!("dialect = \"{dialect}\"\nsite = [{rows}]");
@@ -36,7 +36,8 @@ fn rows_that_contradict_themselves_or_the_table_are_faults() {
     fanuc("op='dwell',words={P='dwell.msec'}", "did you mean 'dwell.ms'?");
     fanuc("name='air',sets={'#500-#501'='x'}", "'#500-#501' is not a variable");
     fanuc("nam='air'", "unknown");
-    refused("fanuc", "{code='M14',text=' ',name='air'}", "M14 has an empty 'text'");
+    refused("fanuc", "{code='M14',text=' ',do='stop'}", "M14 has no 'text'");
+    refused("fanuc", "{code='M14',do='alarm'}", "M14 has no 'text'");
     refused("fanuc", "{code='M30',text='end',name='end'}", "M30 has a meaning of its own on this control");
     refused("fanuc", "{code='G91',text='x',name='x'}", "G91 has a meaning of its own on this control");
     refused("cc100", "{code='M20',text='x',calls=9010}", "no code of a builder does on this control");
@@ -113,4 +114,29 @@ fn the_source_names_codes_of_the_target() {
     assert!(flow.contains("M14 cannot be M30 of the target"), "{flow}");
     let word = meeting("{code='M14',text='a',target='M8',words={P='Q'}}").unwrap_err();
     assert!(word.contains("takes no word Q"), "{word}");
+}
+
+/// A line of `[codes]` is a row of `[[site]]`, and faults stand at their lines.
+#[test]
+fn a_line_of_codes_is_a_row() {
+    let head = "dialect = \"fanuc\"\n";
+    let read = |text: &str| Profile::read(&format!("{head}{text}")).map(Profile::without_places);
+    let rows = "[[site]]\ncode = \"M14\"\ndo = \"omit\"\n[[site]]\ncode = \"M3 P11\"\ntarget = \"M88\"\n";
+    let lines = "[codes]\n\"M3 P11\" = { target = \"M88\" }\n[[site]]\ncode = \"M14\"\ndo = \"omit\"\n";
+    assert_eq!(read(rows).unwrap(), read(lines).unwrap());
+    assert!(read("[codes]\n").unwrap().site.is_empty());
+    for (text, fault) in [
+        ("codes = 1", "'codes' is not a section"),
+        ("[codes]\nM14 = \"omit\"", "M14 is no row in braces"),
+        ("[codes]\nM14 = { code = \"M15\", do = \"omit\" }", "M14 says its code twice"),
+        ("[codes]\nM14 = { targt = \"M88\" }", "targt"),
+    ] {
+        let faults = read(text).unwrap_err();
+        assert!(faults[0].message.contains(fault), "{}", faults[0].message);
+        assert!(faults[0].span.start as usize >= head.len(), "{fault}");
+    }
+    let twice =
+        format!("{head}[codes]\nM14 = {{ do = \"omit\" }}\n[[site]]\ncode = \"M14\"\ndo = \"same\"\n");
+    let faults = Control::from_profile(&twice).map(|_| ()).unwrap_err();
+    assert!(faults[0].message.contains("M14 stands in the profile twice"), "{}", faults[0].message);
 }

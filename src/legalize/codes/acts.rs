@@ -158,7 +158,7 @@ fn stands_for(
 /// A code for people: as it is written, and what it does.
 fn of(act: Act, context: &Context<'_>) -> String {
     match context.source.site_of(act) {
-        Some(site) => format!("{} ({})", site.code, site.text),
+        Some(site) => site.shown(),
         None => format!("'{}'", act.shown()),
     }
 }

@@ -36,5 +36,5 @@ fn without_code(source: &Side<'_>, target: &Side<'_>, what: &EventKind) -> Optio
         Without::Alarm => "is an alarm",
         Without::Same => return None,
     };
-    Some((without, format!("{} ({}) {becomes} on the target, as the profile says", site.code, site.text)))
+    Some((without, format!("{} {becomes} on the target, as the profile says", site.shown())))
 }
