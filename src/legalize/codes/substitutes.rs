@@ -76,15 +76,23 @@ pub fn concerns(features: &Features) -> bool {
 }
 
 /// Leaves out a mode of quality, with the words that belong to it. Beside axis words it would be something else: those
-/// say where to go, or for which axes it is.
+/// say where to go, or for which axes it is. A word of the arc in force would stay, and a centre alone is a full circle.
 fn drop_quality(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>) -> bool {
     let is_mode = |item: &NcItem| *item == NcItem::Op(Op::PathQuality);
     if !nc.items.iter().any(is_mode) {
         return false;
     }
-    if nc.names_axis() {
-        let what =
-            "a mode of quality stands beside axis words: it is not known whether they are a move or its axes";
+    let of_arc = |role: Role| matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK | Role::ArcRadius);
+    let axes = nc.names_axis();
+    if axes || nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if of_arc(*role))) {
+        let what = match axes {
+            true => {
+                "a mode of quality stands beside axis words: it is not known whether they are a move or its axes"
+            }
+            false => {
+                "a mode of quality stands beside words of an arc: it is not known whether they are its own"
+            }
+        };
         let help = "write the mode in a block of its own";
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
         return false;
