@@ -4,6 +4,7 @@ use super::code::Part;
 use super::run::Runner;
 use crate::control::session::Halt;
 use crate::control::trace::EventKind;
+use crate::dialect::Question;
 use std::fmt::Write;
 
 impl Runner<'_> {
@@ -12,9 +13,9 @@ impl Runner<'_> {
     /// Leading places are blank, the fraction is rounded and its zeros are printed; a value too
     /// long for its places takes more.
     pub fn output(&mut self, binary: bool, parts: &[Part]) -> Result<(), Halt> {
-        if !self.port_open {
-            // Whether the text is lost then is not stated: it is printed, and the doubt is kept.
-            self.rules.output_needs_port.ask(&mut self.session.trace);
+        // Whether the text is lost then is not stated: it is printed, and the doubt is kept.
+        if !self.port_open && self.rules.output_needs_port.ask(&mut self.session.trace) {
+            self.session.trace.doubt(Question::OutputNeedsPort.fact());
         }
         if binary {
             self.session.trace.doubt("statement:output.binary");

@@ -2,7 +2,7 @@
 //!
 //! Law: where the source prints without it and the target does not, the port is opened before such output and
 //! closed after it. Side condition: nothing in the library opens the port; where something does, whether it is open
-//! at another place is for a reviewer. Whether it is open is told by the order of the text. Counter-example: a
+//! at another place is for a reviewer, and so is output of a source whose port must be open and is not. Whether it is open is told by the order of the text. Counter-example: a
 //! subprogram that prints for a caller which has opened the port; closing it there would end the caller's output.
 
 use crate::diag::{Code, Diagnostic};
@@ -28,7 +28,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 context.add(index, Diagnostic::new(Code::Conditional, span, what));
             }
             [false, true] => open(program),
-            [_, _] => {}
+            [true, _] => {
+                let what = "the port is not open here as far as this program shows, and no source says what the old control does then: \
+                            make sure that a caller opens it";
+                context.add(index, Diagnostic::new(Code::Conditional, span, what));
+            }
+            [false, false] => {}
         }
     }
 }
