@@ -227,7 +227,7 @@ pub(super) fn speed_word(speed: Speed, tap: &Stmt, target: &Control) -> Option<E
         Speed::Said if tap.kind.nc()?.word(Role::Speed).is_none() && readable() => {
             Some(Expr::System(Sys::Address, [Expr::Number(f64::from(ADDRESS_S))].into()))
         }
-        Speed::Said | Speed::Unknown => None,
+        Speed::Said | Speed::Surface | Speed::Unknown => None,
     }
 }
 

@@ -119,6 +119,8 @@ pub(super) enum Speed {
     Known(f64),
     /// The program says one on every way, which is computed, or another one each time.
     Said,
+    /// The last word may be a speed of the surface, which is none of turns.
+    Surface,
     Unknown,
 }
 
@@ -130,9 +132,19 @@ impl Speed {
             }
             return;
         };
+        let skipped = stmt.site.skip.is_some();
+        if nc.has(Op::SurfaceSpeed) {
+            *self = Self::Surface;
+        } else if *self == Self::Surface && nc.has(Op::TurnsPerMinute) && !skipped {
+            // S counts turns from here on; which turns there are without one is another question.
+            *self = Self::Unknown;
+        }
+        if *self == Self::Surface {
+            return;
+        }
         if let Some(value) = nc.word(Role::Speed) {
             let now = value.constant().map_or(Self::Said, Self::Known);
-            *self = if stmt.site.skip.is_some() { self.either(now) } else { now };
+            *self = if skipped { self.either(now) } else { now };
         }
     }
 }
@@ -140,6 +152,7 @@ impl Speed {
 impl Speed {
     fn either(self, other: Self) -> Self {
         match (self, other) {
+            (Self::Surface, _) | (_, Self::Surface) => Self::Surface,
             (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
             _ if self == other => self,
             _ => Self::Said,
