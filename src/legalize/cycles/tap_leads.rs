@@ -128,7 +128,7 @@ impl Speed {
     pub(super) fn step(&mut self, stmt: &Stmt) {
         let StmtKind::Nc(nc) = &stmt.kind else {
             if matches!(stmt.kind, StmtKind::ModalCall(_)) {
-                *self = Self::Unknown;
+                self.lose();
             }
             return;
         };
@@ -150,6 +150,11 @@ impl Speed {
 }
 
 impl Speed {
+    /// After what nobody sees; a speed of the surface may be in force there still.
+    fn lose(&mut self) {
+        *self = self.either(Self::Unknown);
+    }
+
     fn either(self, other: Self) -> Self {
         match (self, other) {
             (Self::Surface, _) | (_, Self::Surface) => Self::Surface,
@@ -182,6 +187,6 @@ impl Follow for Speeds {
     }
 
     fn lose(&self, speed: &mut Speed) {
-        *speed = Speed::Unknown;
+        speed.lose();
     }
 }

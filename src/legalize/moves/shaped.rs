@@ -5,14 +5,15 @@
 //! under a rotation, and scaling may stand with a drilling cycle, only where that is known of both controls; where it is
 //! not, the place is for review. Where it ends: a mirror about another coordinate than the work zero is refused where
 //! the target mirrors about the zero. The end of mirroring names no axes where a control is not known to take them and the block
-//! ends all; and it names those that the library mirrors where the target is not known to end all by the code alone. An angle or a factor that is not written, which each control takes from a setting of its
+//! ends all; and where the target is not known to end all by the code
+//! alone, it names those that the library mirrors, in a block of its own. An angle or a factor that is not written, which each control takes from a setting of its
 //! own, is written out where the source's profile has it, and refused where not.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row};
 use crate::ir::analysis::behind::behind;
-use crate::ir::{Expr, Module, Nc, NcItem, StmtKind};
+use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -27,6 +28,18 @@ const SCALE: Question = Question::ScaleReachesCycle;
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let mirrored = mirrored(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        for block in &mut program.blocks {
+            for at in (0..block.stmts.len()).rev() {
+                let stmt = &mut block.stmts[at];
+                let span = stmt.site.span;
+                if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    mirror_off(nc, &mirrored, (index, span), context);
+                }
+                if let Some(beside) = name_axes(stmt, &mirrored, index, context) {
+                    block.stmts.insert(at + 1, beside);
+                }
+            }
+        }
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             let span = stmt.site.span;
             if let StmtKind::Nc(nc) = &mut stmt.kind
@@ -36,8 +49,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 mirror(nc, index, span, context);
             }
             if let StmtKind::Nc(nc) = &mut stmt.kind {
-                mirror_off(nc, &mirrored, (index, span), context);
-                name_axes(nc, &mirrored, (index, span), context);
                 write_out(nc, context.source);
             }
             if let Some((what, op, role)) = stmt.kind.nc().and_then(from_setting)
@@ -129,23 +140,36 @@ fn mirror_off(
     }
 }
 
-/// Names the axes whose mirroring a block ends, where the target is not known to end all by the code alone.
+/// Names the axes whose mirroring a block ends, where the target is not known to end all by the code alone. Gives the codes that
+/// stand beside it, for a block of their own after it: they must not take the axes for a move.
 fn name_axes(
-    nc: &mut Nc,
+    stmt: &mut Stmt,
     mirrored: &BTreeSet<Role>,
-    (index, span): (usize, Span),
+    index: usize,
     context: &mut Context<'_>,
-) {
+) -> Option<Stmt> {
+    let span = stmt.site.span;
+    let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
     if !nc.has(Op::MirrorOff) || axes(nc).next().is_some() {
-        return;
+        return None;
     }
     let ends_all = |control: &Control| control.behaviour(BARE).is_none_or(|row| row.value == "all");
     if !ends_all(context.source) && !context.source.is_same_machine(context.target) {
         context.rests_on_source(index, span, BARE);
     }
-    if !ends_all(context.target) {
-        nc.items.extend(mirrored.iter().map(|role| NcItem::Word(*role, Expr::Number(0.0))));
+    if ends_all(context.target) {
+        return None;
     }
+    let off = NcItem::Op(Op::MirrorOff);
+    let items = nc.items.iter().filter(|item| **item != off).cloned().collect();
+    nc.items = vec![off];
+    // Where the library mirrors none, what may be in force is what the operator or another library left.
+    let usual = BTreeSet::from([Role::X, Role::Y, Role::Z]);
+    let named = if mirrored.is_empty() { &usual } else { mirrored };
+    nc.items.extend(named.iter().map(|role| NcItem::Word(*role, Expr::Number(0.0))));
+    let beside = Nc { items };
+    let site = SourceInfo { span, skip: stmt.site.skip, ..SourceInfo::default() };
+    (!beside.items.is_empty()).then_some(Stmt { kind: StmtKind::Nc(beside), site })
 }
 
 /// Writes what a block takes from a setting of its control, where the profile has it.

@@ -28,12 +28,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 context.add(index, Diagnostic::new(Code::Conditional, span, what));
             }
             [false, true] => open(program),
-            [true, _] => {
+            [true, false] => {
                 let what = "the port is not open here as far as this program shows, and no source says what the old control does then: \
                             make sure that a caller opens it";
                 context.add(index, Diagnostic::new(Code::Conditional, span, what));
             }
-            [false, false] => {}
+            [_, _] => {}
         }
     }
 }

@@ -78,7 +78,7 @@ pub(super) const MOVES: &[Pass] = &[
     )
     .when(machine_feeds::concerns),
     Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
-        .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
+        .when(|c, _| [Op::RotateOn, Op::ScaleOn, Op::MirrorOn, Op::MirrorOff].iter().any(|op| c.op(*op))),
     Pass::reports("added-angles", "tells of angles of rotations that may add up", added_angles::run)
         .when(added_angles::concerns),
     Pass::rewrites(

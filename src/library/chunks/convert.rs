@@ -4,7 +4,7 @@
 //! starts in the modal state that the last one left. What a word means never depends on a block of another piece: they
 //! are cut before blocks that name an interpolation, and where none comes, the block that named the one in force
 //! is read once more at the head of the piece, and left out of it. Side conditions, looked for in every piece: plain words,
-//! comments and program ends only; controls on which programs begin alike, because other conversions add to the head of a program.
+//! comments and program ends only; no mirroring; controls on which programs begin alike, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
 use super::cut::{Piece, Pieces};
@@ -136,7 +136,12 @@ fn lower(input: &Input, piece: Piece, source: &Control) -> Option<Lowered> {
             matches!(block.term.kind, TermKind::Jump(_) | TermKind::End { .. } | TermKind::Stray)
         })
     };
-    lowered.programs.iter().all(|(program, _)| straight(program)).then_some(lowered)
+    // The end of mirroring may name the axes that another piece mirrors.
+    let mirrors = |program: &Program| {
+        program.blocks.iter().flat_map(|block| &block.stmts).any(|stmt| stmt.kind.has_op(Op::MirrorOn))
+    };
+    let plain = |program: &Program| straight(program) && !mirrors(program);
+    lowered.programs.iter().all(|(program, _)| plain(program)).then_some(lowered)
 }
 
 fn is_plain(item: &Item, source: &Control) -> bool {

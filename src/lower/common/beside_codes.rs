@@ -6,8 +6,8 @@ use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::CodeMeaning;
 use crate::text::Span;
 
-/// The code of a block that may take a word, of which the profile says what becomes of it: none where another code takes
-/// the word. No code of the block names it; `moves` says that the block has axis words.
+/// The builder's code of a block that may take a word which no code of the block names. None if another code takes the word.
+/// `moves` says that the block has axis words.
 ///
 /// A G code of a builder may take any word, as the X of a return to a second reference position. An M code stands beside moves
 /// and leaves them what is theirs; a centre or a word of a cycle without an axis is no part of a move.

@@ -134,9 +134,9 @@ impl SymbolMap {
         };
         // Of several of one number in a file the one at the same place among them.
         let alike = source.links().named(of.file, Some(word));
-        let nth =
-            alike.iter().position(|program| *program == of).filter(|nth| *nth < here(Some(&wanted)).len());
-        let found = here(Some(&wanted)).get(nth.unwrap_or(0)).copied().or_else(|| target.called(&wanted));
+        let nth = alike.iter().position(|program| *program == of).unwrap_or(0);
+        let theirs = here(Some(&wanted));
+        let found = theirs.get(nth).or(theirs.first()).copied().or_else(|| target.called(&wanted));
         // A program whose number the target leaves out of the file is alone in it: the first one of the source's file.
         found.or_else(|| here(None).first().copied().filter(|_| of.program == 0))
     }
