@@ -65,6 +65,9 @@ pub struct Scenario {
     pub outside_modes: bool,
     /// State that the machine does not model, by name and subscripts: inputs, settings, parameters. Else 0.
     pub state: Vec<StateValue>,
+    /// True where inputs change while the program waits for them: it reads one, and nothing else happens for long.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub inputs_change: bool,
     /// Date, as yyyymmdd.
     pub date: f64,
     /// Time of day, as hhmmss.
@@ -174,6 +177,7 @@ impl Default for Scenario {
             probes: Vec::new(),
             answers: Vec::new(),
             state: Vec::new(),
+            inputs_change: false,
             date: 20_260_101.0,
             time: 120_000.0,
             tick_ms: 1.0,

@@ -155,6 +155,8 @@ pub struct Trace {
     pub roughs: bool,
     /// For spindle and coolant: true if nobody knows whether a stop has ended it, and no code has said since what runs.
     pub open: [bool; 2],
+    /// How many of the events are more than a dwell, a mode, or what the program keeps for itself.
+    happened: usize,
     limit: usize,
     /// Bytes of messages and outputs that are still kept.
     room: usize,
@@ -185,6 +187,7 @@ impl Trace {
             rounded: 0.0,
             roughs: false,
             open: [false; 2],
+            happened: 0,
             limit,
             room: MOST_TEXT,
             full: false,
@@ -227,6 +230,7 @@ impl Trace {
         match self.room.checked_sub(text) {
             Some(room) if self.count() < self.limit => {
                 self.room = room;
+                self.happened += usize::from(what.happens());
                 self.events.push(self.event(what));
             }
             _ => self.full = true,
@@ -238,6 +242,11 @@ impl Trace {
         if let Some(event) = self.events.last_mut().filter(|_| !self.full) {
             event.told = told;
         }
+    }
+
+    /// How many events there were so far that are more than a dwell, a mode, or what the program keeps for itself.
+    pub fn happened(&self) -> usize {
+        self.happened
     }
 
     /// How many events there were so far.

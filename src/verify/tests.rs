@@ -20,6 +20,7 @@ mod skips;
 mod started;
 mod steered;
 mod stops;
+mod waiting;
 
 use super::{Assumptions, Effort, Job, Outcome, ProgramCertificate, Side, Spent, SymbolMap, Why, verify};
 use crate::assume::Assumption;

@@ -7,6 +7,7 @@
 
 mod arc;
 mod auxiliary;
+mod awaited;
 mod block;
 mod command;
 mod cycle;
@@ -132,6 +133,8 @@ pub struct Machine {
     cells: HashMap<(Sys, [u32; 2]), f64>,
     /// What the codes of the machine's builder put into variables, by the numbers of their names.
     given_acts: HashMap<u32, f64>,
+    /// Whether the program waits for inputs; none if they stay as they are.
+    awaited: Option<awaited::Awaited>,
 }
 
 impl Machine {
@@ -190,6 +193,7 @@ impl Machine {
             time: scenario.time,
             cells: HashMap::new(),
             given_acts: HashMap::new(),
+            awaited: scenario.inputs_change.then(awaited::Awaited::default),
         };
         if !scenario.settings.is_empty() {
             let turning = lathe::settings::Turning::with(control, &scenario.settings);

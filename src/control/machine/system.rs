@@ -74,6 +74,9 @@ impl Machine {
             }
             Sys::AxisPosition => trace.doubt(Question::PositionFrame.fact()),
             Sys::ActiveTool => self.active_tool_asked(trace),
+            Sys::Input | Sys::InputInverted => {
+                self.input_asked(subscripts.first().copied().unwrap_or(0), trace);
+            }
             _ => {}
         }
         self.peek(state, subscripts)
@@ -152,7 +155,8 @@ impl Machine {
     }
 
     fn cell(&self, state: Sys, subscripts: &[u32]) -> f64 {
-        self.cells.get(&cell(state, subscripts)).copied().unwrap_or(0.0)
+        let held = self.cells.get(&cell(state, subscripts)).copied().unwrap_or(0.0);
+        if state == Sys::Input { self.input(subscripts.first().copied().unwrap_or(0), held) } else { held }
     }
 
     /// Puts a state there before the program starts, without a trace.

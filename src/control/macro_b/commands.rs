@@ -3,7 +3,7 @@
 use super::code::{Coded, Meaning, Words};
 use super::meaning::is_code;
 use super::run::{Next, Runner};
-use crate::canon::{Group, Op, Pause, Role};
+use crate::canon::{Group, Op, Pause, Role, Sys};
 use crate::control::machine::Command;
 use crate::control::outcome::Stop;
 use crate::control::session::Halt;
@@ -289,8 +289,9 @@ impl<'c> Runner<'c> {
                 },
                 Op::JumpInputOff => {
                     let bit = value(Role::Input).unwrap_or(0.0).max(0.0).round() as u32;
-                    let on =
-                        self.session.machine.peek(crate::canon::Sys::Input, &[bit]).unwrap_or(0.0) != 0.0;
+                    let session = &mut self.session;
+                    let input = session.machine.read(Sys::Input, &[bit], &mut session.trace);
+                    let on = input.unwrap_or(0.0) != 0.0;
                     self.session.branches.took(self.session.trace.at, i64::from(!on));
                     let at = self.frames.last().map_or(0, |frame| frame.at);
                     match (on, value(Role::Sequence)) {

@@ -370,3 +370,12 @@ pub enum EventKind {
         fact: String,
     },
 }
+
+impl EventKind {
+    /// False for a dwell, for a mode, and for what the program keeps for itself: while nothing else comes, it may wait.
+    pub(super) fn happens(&self) -> bool {
+        let keeps =
+            matches!(self, Self::Variable { .. } | Self::Enter { .. } | Self::Leave | Self::Unsure { .. });
+        !keeps && !matches!(self, Self::Dwell { .. } | Self::Other { .. })
+    }
+}

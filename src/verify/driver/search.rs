@@ -3,7 +3,7 @@
 use super::settled::Settled;
 use super::verifier::Verifier;
 use crate::assume::Predicate;
-use crate::canon::Role;
+use crate::canon::{Role, Sys};
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::dialect::{Axis, Machine};
 use crate::verify::certificate::Why;
@@ -58,6 +58,8 @@ impl Verifier<'_, '_> {
         });
         let settings = self.settings();
         let as_stated = self.job.as_stated(self.program);
+        let is_input = |(state, _): &(Sys, Vec<u32>)| matches!(state, Sys::Input | Sys::InputInverted);
+        let reads_inputs = found.cells.keys().any(is_input);
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
@@ -101,6 +103,9 @@ impl Verifier<'_, '_> {
                 for_target += usize::from(!new && !telling && !spare);
                 let new_there = self.compare(&scenario, &run, there);
                 self.tell(&scenario, &run, new || new_there);
+            }
+            if reads_inputs && is_cut(&run) {
+                starts.extend(self.try_as_inputs_change(&scenario, there));
             }
             let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
             let barren = self.compared == 0 && self.tried >= BARREN;
@@ -192,6 +197,23 @@ impl Verifier<'_, '_> {
             }
         }
         settings
+    }
+
+    /// A scenario in which the source came to no end, once more with inputs that change while it waits for them: given
+    /// if it ends then.
+    fn try_as_inputs_change(&mut self, scenario: &Scenario, there: ProgramRef) -> Option<Circumstances> {
+        let scenario = Scenario { inputs_change: true, ..scenario.clone() };
+        let run = self.run_source(&scenario);
+        self.steps += run.steps;
+        if is_cut(&run) {
+            return None;
+        }
+        let new = self.coverage.add(&run);
+        if new || self.compared < self.job.effort.fewest {
+            let new_there = self.compare(&scenario, &run, there);
+            self.tell(&scenario, &run, new || new_there);
+        }
+        Some(Circumstances { scenario, theirs: self.theirs.clone() })
     }
 
     /// A run of the source; a long way to its end is tried once.
