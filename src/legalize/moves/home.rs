@@ -3,14 +3,16 @@
 //! Law: a return is a rapid move to its point, if that is not where the tool stands, and one to the reference position in
 //! machine coordinates. Side conditions: the reference position is the zero of the machine's coordinates, which a person
 //! must confirm; absolute or incremental is known, and restored, as the interpolation is. Rotary axes are left alone, and
-//! refused. Counter-example: a machine whose reference position was set elsewhere.
+//! refused. An axis whose word may be vacant is refused too: the return leaves it where it is. Counter-example: a machine whose reference position was set elsewhere.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
+use crate::ir::analysis::Vacancy;
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::{Context, Modal, replace_statements};
-use std::collections::BTreeMap;
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// True if the target has machine coordinates and no return.
 pub fn concerns(target: &Control) -> bool {
@@ -23,9 +25,13 @@ const ZERO: &str =
 const UNKNOWN: &str = "a return to the reference position where it is not known whether G90 or G91 is in force: write one before it";
 const MOTION: &str = "which interpolation is in force before this return is not known: the target is in rapid traverse after it";
 
+const VACANT: &str = "this return leaves out an axis whose value is vacant, and the target's move would take it along: write a return for \
+                      each case, after an IF";
+
 /// Writes returns as moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
+    let unsure = unsure(module, context);
     replace_statements(module, &facts, |index, state, stmt, out| {
         let before = state.clone();
         state.step(&stmt);
@@ -34,6 +40,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             _ => return out.push(stmt),
         };
         let span = stmt.site.span;
+        if unsure.contains(&(index, span)) {
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, VACANT));
+            return out.push(stmt);
+        }
         let Some(moves) = moves else {
             context.add_once(index, UNKNOWN, Diagnostic::new(Code::NoEquivalent, span, UNKNOWN));
             return out.push(stmt);
@@ -49,6 +59,44 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
         }
     });
+}
+
+/// The returns with a word of an axis that may be vacant, by program.
+fn unsure(module: &Module, context: &mut Context<'_>) -> BTreeSet<(usize, Span)> {
+    // A minus before a vacant variable is no word either.
+    let word = |item: &NcItem| match item {
+        NcItem::Word(role, Expr::Negate(value)) if role.is_axis() => Some(Expr::clone(value)),
+        NcItem::Word(role, value) if role.is_axis() => Some(value.clone()),
+        _ => None,
+    };
+    let words = |stmt: &Stmt| match &stmt.kind {
+        StmtKind::Nc(nc) if nc.has(Op::ReferenceReturn) => {
+            nc.items.iter().filter_map(word).filter(Expr::may_be_vacant).collect()
+        }
+        _ => Vec::new(),
+    };
+    let mut found = BTreeSet::new();
+    if module
+        .programs
+        .iter()
+        .flat_map(|program| &program.blocks)
+        .flat_map(|block| &block.stmts)
+        .all(|stmt| words(stmt).is_empty())
+    {
+        return found;
+    }
+    let summaries = context.summaries(module);
+    for (index, program) in module.programs.iter().enumerate() {
+        let vacancy = Vacancy::of(program, &summaries, &BTreeSet::new());
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                if words(stmt).iter().any(|value| vacancy.may_yield_vacant(id, at, value)) {
+                    found.insert((index, stmt.site.span));
+                }
+            }
+        }
+    }
+    found
 }
 
 /// The blocks that stand for a return; none where the distance mode is not known.
