@@ -34,7 +34,7 @@ use crate::text::Span;
 use drill::{Cycle, Drill, Height, Known, Runs, Told, tells, unplaced};
 use flow::{Flow, Vacancies, named_unit, says_motion, step};
 pub(super) use moves::has_moves;
-use moves::{Hole, Part, counts, hole, lifts, mixes, of_unplaced};
+use moves::{Hole, Part, counts, hole, lifts, may_end_at_feed, mixes, of_unplaced};
 use pen::{Pen, push};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -185,7 +185,7 @@ impl Writer<'_, '_> {
         let span = site.span;
         nc.items.retain(|item| !self.whole || !matches!(item, NcItem::Op(Op::ReturnR | Op::ReturnInitial)));
         if nc.has(Op::CycleOff) && matches!(before.cycle, Cycle::On(_) | Cycle::Maybe(_) | Cycle::Mixed) {
-            self.end(&mut nc, was, span, says_motion);
+            self.end(&mut nc, was, (span, says_motion), may_end_at_feed(&before.cycle));
         }
         match &after.cycle {
             Cycle::Mixed if nc.moves() || nc.ops().any(Op::is_cycle) => self.refuse(span, MIXED),
@@ -195,13 +195,14 @@ impl Writer<'_, '_> {
         push(builder, nc.items, site);
     }
 
-    /// Ends a cycle: the interpolation of before it counts again.
-    fn end(&mut self, nc: &mut Nc, was: &Modal, span: Span, says_motion: bool) {
+    /// Ends a cycle: the interpolation of before it counts again. A bored hole may have left the feed in force.
+    fn end(&mut self, nc: &mut Nc, was: &Modal, (span, says_motion): (Span, bool), at_feed: bool) {
         nc.items.retain(|item| !self.whole || *item != NcItem::Op(Op::CycleOff));
         let named = nc.ops().any(|op| op.group() == Group::Motion);
         match was.op(Group::Motion) {
             _ if named => {}
-            Some(Op::Rapid) => {}
+            Some(Op::Rapid) if !at_feed || says_motion && !nc.moves() => {}
+            Some(Op::Rapid) => nc.items.insert(0, NcItem::Op(Op::Rapid)),
             Some(op) => {
                 self.review(span, KEPT);
                 nc.items.insert(0, NcItem::Op(op));

@@ -49,6 +49,17 @@ pub(super) fn lifts(nc: &Nc, before: &Known, drill: &Drill) -> bool {
     moved && by_steps && nc.word(Role::Z).is_none() && was.told(Told::Bottom) != Value::None
 }
 
+/// True where the last move of a cycle's holes may be at feed: the way out of a bored one.
+pub(super) fn may_end_at_feed(cycle: &Cycle) -> bool {
+    match cycle {
+        Cycle::On(drill) | Cycle::Maybe(drill) => {
+            drill.op.is_none_or(|op| matches!(op, Op::CycleBore | Op::CycleBoreDwell))
+        }
+        Cycle::Mixed => true,
+        Cycle::Off | Cycle::Outside => false,
+    }
+}
+
 /// True for a cycle whose moves are known.
 pub fn has_moves(op: Op) -> bool {
     use Op::*;
