@@ -39,7 +39,8 @@ pub(super) fn beside(input: &Input, control: &Control, places: &[Span]) -> Vec<B
     places.iter().map(look).collect()
 }
 
-/// The letters of a block with one code, but for those that mean something beside any code: beside an M code that is an axis too.
+/// The letters of a block with one code, but for those that mean something beside any code: beside an M code that is an axis,
+/// a feed, a speed and a tool too.
 fn letters(block: &Block, control: &Control) -> Vec<char> {
     let words = block.items.iter().filter_map(|item| match &item.kind {
         ItemKind::Word(word) if !word.comma => Some(word.letter),
@@ -60,7 +61,9 @@ fn letters(block: &Block, control: &Control) -> Vec<char> {
     if *code == 'M' && words.iter().any(|letter| is_axis(*letter)) {
         return Vec::new();
     }
-    words.into_iter().filter(|letter| !"GMNOSFT".contains(*letter)).collect()
+    // Beside a G code of a builder a feed, a speed or a tool is asked too: a profile has to name it.
+    let elsewhere = if *code == 'M' { "GMNOSFT" } else { "GMNO" };
+    words.into_iter().filter(|letter| !elsewhere.contains(*letter)).collect()
 }
 
 fn is_comment(block: &Block) -> bool {
@@ -88,4 +91,19 @@ pub(super) fn most(comments: impl Iterator<Item = String>) -> Option<(String, us
     comments.for_each(|comment| *count.entry(comment).or_default() += 1);
     // Of equals the first in order.
     count.into_iter().rev().max_by_key(|(_, times)| *times)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_feed_is_a_word_of_a_builders_g_code_and_of_no_m_code() {
+        let control = Control::from_profile("dialect = \"haas\"\nmachine = \"mill\"\n").unwrap();
+        let bytes = b"G47 P0 X1. Z-2. F15.\nM77 P3 F15.\n".to_vec();
+        let input = Input { path: "a.nc".into(), name: "a.nc".into(), bytes };
+        let found = beside(&input, &control, &[Span { start: 0, end: 3 }, Span { start: 22, end: 25 }]);
+        let letters: Vec<String> = found.into_iter().map(|one| one.letters.into_iter().collect()).collect();
+        assert_eq!(letters, ["PXZF", "P"]);
+    }
 }

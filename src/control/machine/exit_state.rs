@@ -27,6 +27,8 @@ pub struct ExitState {
     pub unit_named: bool,
     /// The feed in force, millimetres.
     pub feed: f64,
+    /// True where that feed was told per turn: it is none in another mode.
+    pub feed_by_turn: bool,
     /// The selected work offset: 0 none.
     pub work: u32,
     /// What is added to a programmed coordinate: work offset and shifts.
@@ -72,6 +74,7 @@ impl Machine {
             modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
             unit_named: self.unit_named,
             feed: self.feed,
+            feed_by_turn: self.feed_by_turn,
             work: self.frame.number,
             shift: self.frame.shifts(),
             length: (0.0, self.length_lost.is_some()),

@@ -90,6 +90,8 @@ pub struct Machine {
     return_to_r: bool,
     plane: Plane,
     feed: f64,
+    /// True where the feed was told per turn.
+    feed_by_turn: bool,
     feed_mode: FeedMode,
     speed: f64,
     surface_speed: bool,
@@ -161,6 +163,7 @@ impl Machine {
             return_to_r: false,
             plane: Plane::Xy,
             feed: 0.0,
+            feed_by_turn: false,
             feed_mode: FeedMode::PerMinute,
             speed: 0.0,
             surface_speed: false,

@@ -49,6 +49,7 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
     if let Some(feed) = command.word(Role::Feed) {
         let scale = if machine.inch && machine.feed_mode != FeedMode::Inverse { INCH } else { 1.0 };
         machine.feed = feed * scale;
+        machine.feed_by_turn = machine.feed_mode == FeedMode::PerTurn;
     }
 }
 

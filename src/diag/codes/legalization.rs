@@ -58,6 +58,11 @@ Nothing needs to be done if the program cuts as it should on the source. If the 
 "The cycle takes a length from a setting of the target: how far a peck goes back, what is left of a thread for its last pass. The target's profile states this setting, and the program needs another value, or two cycles of the program need different values. The moves of the cycle stand in its place, so that the machine does the same whatever it is set to.
 
 Nothing needs to be done. To keep the cycle, set the machine as the message says, and write the value into its profile."
+
+    "0413" TurnsWrittenOut Note "a feed per turn is written per minute"
+"The target has no feed per turn. The feed is written per minute: so much a turn, times the speed that the program gives the spindle. It is told once a program.
+
+Nothing needs to be done. While the operator turns the override of the spindle, the feed stays as it is, and the chip gets thinner or thicker."
         }
     };
 }

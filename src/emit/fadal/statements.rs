@@ -146,21 +146,29 @@ impl<'p> Emitter<'p> {
         self.page.skip_next = None;
     }
 
-    /// `M98 P800 L2`.
+    /// `M98 P800 L2`; `M98 P+R5`.
     fn call(&mut self, call: &Call) {
         if call.level || !call.arguments.is_empty() {
             return self.out.unmapped("a call that opens a level of locals");
         }
-        let Callee::Program(name) = &call.callee else {
-            return self.out.unmapped("a call of that kind");
-        };
-        let most = self.control.text().program_max;
-        let Some(number) = self.names.program(name).filter(|number| (1..=most).contains(number)) else {
-            return self.out.unmapped(format_args!("the name of the program, {name}"));
-        };
-        self.code(Op::CallProgram);
-        self.out.push_str(" P");
-        self.out.integer(number);
+        match &call.callee {
+            Callee::Program(name) => {
+                let most = self.control.text().program_max;
+                let Some(number) = self.names.program(name).filter(|number| (1..=most).contains(number))
+                else {
+                    return self.out.unmapped(format_args!("the name of the program, {name}"));
+                };
+                self.code(Op::CallProgram);
+                self.out.push_str(" P");
+                self.out.integer(number);
+            }
+            Callee::Computed(number) => {
+                self.code(Op::CallProgram);
+                self.out.push_str(" P");
+                self.word_value(Role::Program, number, false);
+            }
+            Callee::Block(_) | Callee::Cycle(_) => return self.out.unmapped("a call of that kind"),
+        }
         if let Some(count) = &call.count {
             let most = self.control.limit("repeat").map_or(f64::INFINITY, f64::from);
             if count.constant().is_some_and(|count| !(1.0..=most).contains(&count)) {

@@ -112,6 +112,9 @@ const SIDE: &str = "if the machine has a code for it under which C counts degree
                     lines: along a straight line round the side Z and C go evenly, so the path is the same. F is not the speed along the side there: try \
                     it with the tool in the air";
 
+const TURNS: &str = "write S as a number before the cuts, and F in each block that follows a change of S or of G94 and G95: then the feeds are written per \
+                     minute. Or write G94, and as F the feed of a turn times the speed";
+
 /// What a person can do: a shop says what a code of its machine does. None for what is more than a code.
 fn help(op: Op) -> Option<String> {
     let words = match op {
@@ -120,6 +123,7 @@ fn help(op: Op) -> Option<String> {
         op if op.auxiliary().is_some() => "",
         Op::ThreadVariable => return Some(LEADS.into()),
         Op::Cylinder => return Some(SIDE.into()),
+        Op::FeedPerTurn => return Some(TURNS.into()),
         _ => return None,
     };
     Some(format!(

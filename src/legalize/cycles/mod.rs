@@ -11,6 +11,7 @@ pub(in crate::legalize) mod drill_planes;
 pub(in crate::legalize) mod dwell;
 pub(in crate::legalize) mod even_pecks;
 mod fine_shifts;
+pub(in crate::legalize) mod first_holes;
 pub(in crate::legalize) mod hole_circles;
 pub(in crate::legalize) mod hole_moves;
 pub(in crate::legalize) mod inherited_words;

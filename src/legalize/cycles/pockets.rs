@@ -2,13 +2,14 @@
 //!
 //! Law: such a block feeds down at the centre, goes out to the first circle along a half circle, mills it whole, goes on to the
 //! next, and back to the centre along a half circle; so do blocks with these moves, in increments from where the tool stands. The
-//! cutter radius is read from its offset and taken off. Side conditions: the words are numbers, the block names an offset, the
+//! cutter radius is read from its offset, with its wear where the target keeps that apart, and taken off. Side conditions: the words are
+//! numbers, the block names an offset, the
 //! plane is that of X and Y, neither compensation nor a drilling cycle is in force, and what is in force comes back after it. That
 //! the source goes so is `machine:pocket.path`, which a figure of its maker alone shows. Counter-example: `G13 I.5 D1` under `G41`.
 
 mod path;
 
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, Place, Stmt, StmtKind};
@@ -27,7 +28,7 @@ const FACT: &str = "machine:pocket.path";
 const TAKEN: &str = "a round pocket (G12, G13) is written out as arcs. Taken: Z feeds straight down at the centre; a half circle goes out to \
      radius I; each circle is milled whole; half circles go on to the next (Q more each time, K last); a half circle goes back to the \
      centre, and the tool stays at its depth. The tool's radius is read from offset D of the target. Make sure that the source goes so \
-     too, as its graphics page shows, and that offset D of the target holds this tool";
+     too, as its graphics page shows, and that offset D of the target holds this tool, its wear counted";
 
 const GOES_ON: &str = "after this pocket the program moves along X or Y before it raises Z, and the target's tool is at the depth of the pocket then: \
      make sure that the source's is too, and does not come back up by itself";
@@ -48,6 +49,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         shapes: !context.features.any_op(|op| matches!(op, Op::RotateOn | Op::ScaleOn | Op::MirrorOn)),
         compensates: !context.features.any_op(|op| matches!(op, Op::RadiusLeft | Op::RadiusRight)),
     };
+    let kept = |state| context.target.system_runs(state).next().is_some();
+    let wears = [Sys::RadiusWear, Sys::DiameterWear, Sys::DiameterOrRadiusWear].into_iter().any(kept);
     for index in 0..module.programs.len() {
         let program = &mut module.programs[index];
         let mut found = Vec::new();
@@ -70,6 +73,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         fit.iter().any(|(offset, least)| *offset == pocket.offset && *least <= first);
                     fit.push((pocket.offset, first));
                     pocket.goes_on = goes_on(block, place);
+                    pocket.wears = wears;
                 }
                 tell(&pocket, index, stmt, context);
                 found.push(pocket.ok());
@@ -256,6 +260,7 @@ fn read(
         parts,
         fits: false,
         goes_on: false,
+        wears: true,
     })
 }
 

@@ -43,12 +43,21 @@ fn by_code(control: &Control) -> bool {
     wanted && control.code_for(Op::RigidTaps, &BTreeMap::new()).is_some()
 }
 
+/// True for a control that has a tapping cycle of some kind.
+fn has_taps(control: &Control) -> bool {
+    [Op::CycleTap, Op::CycleTapLeft, Op::CycleTapRigid, Op::CycleTapByLead]
+        .iter()
+        .any(|op| control.code_for(*op, &BTreeMap::new()).is_some())
+}
+
 /// Takes the code away, or writes it.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
     let speeds = OverCalls::of(module, &Speeds);
     let keeps = context.target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some();
     let lathe = context.target.machine() == Machine::Lathe;
+    // A control without taps is asked nothing of them: each is refused as a code that it lacks.
+    let has_taps = has_taps(context.target);
     let (all, writes) = (always(context.source), by_code(context.target));
     let mut changed = false;
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
@@ -75,7 +84,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let rigid = stmt.kind.has_op(Op::RigidTaps);
                 let taps = stmt.kind.nc().is_some_and(|nc| nc.ops().any(|op| is_asked(op, context.target)));
                 coded |= rigid;
-                if (rigid || all && taps) && !always(context.target) && !lathe {
+                if (rigid || all && taps) && !always(context.target) && !lathe && has_taps {
                     context.rests_on_target(index, stmt.site.span, Question::TapRigid);
                 }
                 if rigid && !keeps {

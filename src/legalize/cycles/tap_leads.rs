@@ -115,7 +115,7 @@ fn give_lead(nc: &mut Nc, speed: Speed, feed: Option<f64>, mode: Option<Op>) -> 
 
 /// The speed of the spindle, as the last word has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Speed {
+pub(in crate::legalize) enum Speed {
     Known(f64),
     /// The program says one on every way, which is computed, or another one each time.
     Said,
@@ -125,7 +125,7 @@ pub(super) enum Speed {
 }
 
 impl Speed {
-    pub(super) fn step(&mut self, stmt: &Stmt) {
+    pub(in crate::legalize) fn step(&mut self, stmt: &Stmt) {
         let StmtKind::Nc(nc) = &stmt.kind else {
             if matches!(stmt.kind, StmtKind::ModalCall(_)) {
                 self.lose();
@@ -173,7 +173,7 @@ impl Lattice for Speed {
 }
 
 /// The speed at every block of a library: a program that is called begins with that of its callers.
-pub(super) struct Speeds;
+pub(in crate::legalize) struct Speeds;
 
 impl Follow for Speeds {
     type Known = Speed;

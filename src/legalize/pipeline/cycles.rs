@@ -5,8 +5,8 @@ use super::lathe::is_mill;
 use crate::canon::{Op, Role};
 use crate::legalize::codes::{lookahead, waits};
 use crate::legalize::cycles::{
-    cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, hole_moves, missing_pecks,
-    uneven_pecks,
+    cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, first_holes, hole_moves,
+    missing_pecks, uneven_pecks,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::operator::alarms;
@@ -38,6 +38,11 @@ pub(super) const CYCLES: &[Pass] = &[
     .changes_flow(),
     Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell))
+        .needs(&["hole-moves", "uneven-pecks"]),
+    Pass::edits("first-holes", "cycles that are only stored begin at their first hole", first_holes::run)
+        .when(|c, context| {
+            is_mill(context) && first_holes::concerns(c, context) && !hole_moves::replaces(context.target)
+        })
         .needs(&["hole-moves", "uneven-pecks"]),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
         .when(|c, context| is_mill(context) && drills(c) && !hole_moves::replaces(context.target)),

@@ -11,8 +11,8 @@ use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     absolute_places, added_angles, bare_arcs, home, increments, inverse_feeds, long_arcs, machine_feeds,
     machine_moves, off_circle, polar, polar_mode, rapid_once, reference, rotary_turns, rotary_ways,
-    rotations, second_home, shaped, shift, short_arcs, under_increments, unit_agrees, unit_checks, units,
-    word_rounds,
+    rotations, second_home, shaped, shift, short_arcs, turn_cuts, under_increments, unit_agrees, unit_checks,
+    units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
@@ -167,6 +167,9 @@ pub(super) const MOVES: &[Pass] = &[
     .when(rigid_taps::concerns),
     Pass::edits("turn-feeds", "taps in feed per turn feed per minute", turn_feeds::run)
         .when(|c, context| is_mill(context) && turn_feeds::concerns(c, context)),
+    Pass::edits("turn-cuts", "cuts in feed per turn feed per minute", turn_cuts::run)
+        .when(|c, context| is_mill(context) && turn_cuts::concerns(c, context))
+        .needs(&["turn-feeds"]),
     Pass::reports("leadless-taps", "refuses taps that are told no lead", leadless_taps::run)
         .when(leadless_taps::concerns),
     Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),

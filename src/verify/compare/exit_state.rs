@@ -148,8 +148,12 @@ fn state_differs(
             return Some(format!("in {op}, the target in {there}"));
         }
     }
+    // A feed per turn is none where the target has no such mode; a return with one in force is told by the conversion.
+    let by_turn = ours.feed_by_turn && lacks(target, Op::FeedPerTurn);
     // What a tap by its lead leaves is known only where a feed was in force before.
-    if ours.feed == 0.0 && theirs.feed != 0.0 {
+    if by_turn {
+        // Nothing to compare.
+    } else if ours.feed == 0.0 && theirs.feed != 0.0 {
         let text = "the target returns with a feed of its own, the source with its caller's feed";
         substituted.insert(text.into());
     } else if (ours.feed - theirs.feed).abs() > 1e-4 * ours.feed.abs() {

@@ -3,9 +3,10 @@
 use super::kinds::{Setting, is_cut, is_mode, is_pause, returns, running, setting};
 use super::loose::Order;
 use super::paths::apart;
+use super::substitutes::lacks;
 use crate::canon::{Op, Sys};
 use crate::control::Run;
-use crate::control::trace::{Event, EventKind, Side, Spindle, Told};
+use crate::control::trace::{Event, EventKind, FeedMode, Side, Spindle, Told};
 use crate::dialect::Control;
 use crate::verify::sides::Side as Library;
 use std::ops::Deref;
@@ -89,15 +90,23 @@ const NOWHERE: f64 = 1e-9;
 /// from the next move along its axis on.
 /// Which tool is made ready shows at the next change.
 ///
-/// What `is_left_out` on the other side finds nothing there, so nothing that was found running counts before it.
-pub fn observe<'r>(
+/// What `is_left_out` on the other side finds nothing there, so nothing that was found running counts before it. If the other
+/// side has no feed per turn (`per_minute`), a cut feeds as fast as it does at the speed of the spindle.
+fn observe<'r>(
     side: &Library<'_>,
     run: &'r Run,
     order: &Order<'r>,
     is_left_out: &dyn Fn(&EventKind) -> bool,
+    per_minute: bool,
 ) -> Vec<Act<'r>> {
-    let mut seen =
-        Observer { side, out: Vec::new(), waiting: Vec::new(), held: Vec::new(), open: [false; 2] };
+    let mut seen = Observer {
+        side,
+        out: Vec::new(),
+        waiting: Vec::new(),
+        held: Vec::new(),
+        open: [false; 2],
+        per_minute,
+    };
     seen.held = initial(run).into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
     let events = order.events();
     for (at, event) in events.iter().copied().enumerate().filter(|(_, event)| is_observable(&event.what)) {
@@ -154,6 +163,8 @@ struct Observer<'o, 'r> {
     /// For each of [`Running`], true if nobody knows whether it runs: what the program says of it next is told, even
     /// if it is what ran before.
     open: [bool; 2],
+    /// True where a feed per turn is told as one per minute.
+    per_minute: bool,
 }
 
 impl<'r> Observer<'_, 'r> {
@@ -203,11 +214,49 @@ impl<'r> Observer<'_, 'r> {
                 }
             }
             EventKind::Alarm(stop) => (What::Own(&event.what), room("message.alarm", &stop.text)),
-            what => (What::Own(what), None),
+            what => (self.in_minutes(what).map_or(What::Own(what), What::other), None),
         };
         self.out.push(Act { event, what, rounded: event.rounded, told: event.told, room });
         if is_pause(&event.what) {
             self.open = event.open;
+        }
+    }
+}
+
+/// What an observer could tell of each of two runs, in these orders; `is_left_out` of the target for the source.
+pub(super) fn observed<'r>(
+    (source, run): (&Library<'_>, &'r Run),
+    (target, other): (&Library<'_>, &'r Run),
+    [ours, theirs]: [&Order<'r>; 2],
+    is_left_out: &dyn Fn(&EventKind) -> bool,
+) -> [Vec<Act<'r>>; 2] {
+    let by_minute = |other: &Library<'_>| lacks(other, Op::FeedPerTurn);
+    let ours = observe(source, run, ours, is_left_out, by_minute(target));
+    [ours, observe(target, other, theirs, &|_| false, by_minute(source))]
+}
+
+impl Observer<'_, '_> {
+    /// A cut in feed per turn, with its feed per minute, where that is asked and the spindle has a speed of turns.
+    fn in_minutes(&self, what: &EventKind) -> Option<EventKind> {
+        if !self.per_minute {
+            return None;
+        }
+        let turns = |kind: &Setting| *kind == Setting::Spindle;
+        let speed = self.held.iter().find(|(kind, _)| turns(kind)).and_then(|(_, held)| match held {
+            EventKind::Spindle { speed, surface: false, .. } => Some(*speed).filter(|speed| *speed > 0.0),
+            _ => None,
+        });
+        let is_cut = matches!(what, EventKind::Feed { .. } | EventKind::Arc { .. });
+        let speed = speed.filter(|_| is_cut)?;
+        let mut what = what.clone();
+        match &mut what {
+            EventKind::Feed { feed, mode, .. } | EventKind::Arc { feed, mode, .. }
+                if *mode == FeedMode::PerTurn =>
+            {
+                (*feed, *mode) = (*feed * speed, FeedMode::PerMinute);
+                Some(what)
+            }
+            _ => None,
         }
     }
 }

@@ -9,7 +9,7 @@ use super::kinds::is_cut;
 use super::lengths::{brought, is_told_of_same_tool, shown_by_moves, skips_same_tool};
 use super::letters;
 use super::loose::{Found, Order, farthest};
-use super::observe::{Act, observe};
+use super::observe::{Act, observed};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ended_meanwhile, ends_cycle, may_do_so, may_turn, starts_again};
 use super::renamed::Renaming;
@@ -72,8 +72,7 @@ pub(super) fn acts<'r>(
     [ours, theirs]: &[Order<'r>; 2],
 ) -> [Vec<Act<'r>>; 2] {
     let left = |what: &EventKind| builders::is_left_out(source.0, target.0, what).is_some();
-    let mut ours = observe(source.0, source.1, ours, &left);
-    let mut theirs = observe(target.0, target.1, theirs, &|_| false);
+    let [mut ours, mut theirs] = observed(source, target, [ours, theirs], &left);
     if !std::ptr::eq(source.0, target.0) && [source, target].iter().any(|one| lacks_messages(one.0.control)) {
         (ours, theirs) = (as_messages(ours, source.0.control), as_messages(theirs, target.0.control));
     }

@@ -13,7 +13,7 @@ use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::dialect::{Question, Units};
 use crate::verify::certificate::Why;
 use crate::verify::compare::{Difference, compare, is_cut, lacks};
-use crate::verify::entry::{Start, UNIT, starts};
+use crate::verify::entry::{CYCLE, Start, UNIT, leaves_cycle, starts};
 use crate::verify::sides::{Side, SymbolMap};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -123,7 +123,9 @@ impl Verifier<'_, '_> {
 
     /// Notes that the source rests on states in which the target does something else.
     fn rests(&mut self, states: &[&Start], what: &str) {
-        if states.iter().all(|state| self.is_assumed(state)) {
+        // What no program of the library leaves on, and a reset switches off, none of them is started in.
+        let never = |state: &Start| state.name == CYCLE && !leaves_cycle(self.job.source);
+        if states.iter().all(|state| self.is_assumed(state) || never(state)) {
             return;
         }
         let all = |word: fn(&Start) -> &'static str| {

@@ -6,4 +6,4 @@ mod starts;
 
 pub use given::{given, look_at_callers};
 pub use looks::{is_root, scenarios};
-pub use starts::{Start, UNIT, starts};
+pub use starts::{CYCLE, Start, UNIT, leaves_cycle, starts};

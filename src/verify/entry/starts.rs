@@ -7,7 +7,7 @@ use crate::canon::{Group, Op};
 use crate::control::entry::{Drilling, Entry};
 use crate::control::{ProgramRef, Scenario};
 use crate::dialect::{CodeHead, Control, StartMode};
-use crate::syntax::{ExprKind, ItemKind, Word, for_each_item};
+use crate::syntax::{ExprKind, Item, ItemKind, Word, for_each_item};
 use crate::verify::sides::{Job, Side, of_target};
 use std::collections::BTreeSet;
 
@@ -61,6 +61,9 @@ const fn reset(name: &'static str, noun: &'static str, words: &'static str) -> S
 pub const UNIT: Start = always("unit", "the unit in force", "in the other unit");
 
 const WORK_OFFSET: &str = "work.offset";
+
+/// The name of a drilling cycle in force.
+pub const CYCLE: &str = "cycle";
 
 /// All others, those that turn coordinates about last.
 const STARTS: &[Start] = &[
@@ -131,7 +134,7 @@ const STARTS: &[Start] = &[
         put: |entry| entry.cycle = Some(Drilling { retract: 2.54, bottom: -25.4 }),
         named: (Some(Group::Cycle), &[]),
         turns: true,
-        ..reset("cycle", "the drilling cycle in force", "with a drilling cycle in force")
+        ..reset(CYCLE, "the drilling cycle in force", "with a drilling cycle in force")
     },
     Start {
         code: Some(Op::RotateOn),
@@ -208,6 +211,43 @@ fn named(side: &Side<'_>, programs: &[ProgramRef]) -> (BTreeSet<Op>, bool) {
         });
     }
     (found, computed)
+}
+
+/// True where a program may end with a drilling cycle in force: in the order of its text one begins, and the text ends, or goes
+/// elsewhere, before a code ends it.
+pub fn leaves_cycle(side: &Side<'_>) -> bool {
+    let of_cycle = |items: &[Item]| {
+        let mut any = false;
+        for_each_item(items, &mut |item| {
+            let ItemKind::Word(word) = &item.kind else { return };
+            any |= ops(side.control, word).is_none_or(|ops| ops.iter().any(|op| op.group() == Group::Cycle));
+        });
+        any
+    };
+    side.links().programs().iter().any(|program| {
+        let (mut drills, mut leaves) = (false, false);
+        for block in side.text(*program) {
+            for_each_item(&block.items, &mut |item| match &item.kind {
+                ItemKind::Word(word) => match ops(side.control, word) {
+                    None => leaves = true,
+                    Some(ops) if ops.contains(&Op::CycleOff) => drills = false,
+                    Some(ops) if ops.iter().any(|op| op.is_cycle()) => drills = true,
+                    Some(ops) => leaves |= drills && ops.iter().any(|op| op.is_flow()),
+                },
+                ItemKind::Skip(_) => leaves |= drills || of_cycle(&block.items),
+                ItemKind::EndOfBlock
+                | ItemKind::Tape
+                | ItemKind::Program(_)
+                | ItemKind::Sequence { .. }
+                | ItemKind::Label(_)
+                | ItemKind::MacroMark
+                | ItemKind::Comment(_)
+                | ItemKind::Assign { .. } => {}
+                _ => leaves |= drills,
+            });
+        }
+        drills || leaves
+    })
 }
 
 /// The operations that a word may say; none if it is a code that is computed.

@@ -147,6 +147,9 @@ impl Proposals {
     /// A machine around start values.
     fn around(&mut self, variables: BTreeMap<String, f64>, count: usize) -> Scenario {
         let mut scenario = machine(&mut self.random);
+        if self.inputs.unworn {
+            scenario.tools.values_mut().for_each(|tool| tool.radius_wear = 0.0);
+        }
         scenario.sets_named = self.inputs.sets_named;
         // What stands for the second reference position of the source is that position.
         for (axis, place) in [0, 2].into_iter().zip(self.inputs.second_home) {

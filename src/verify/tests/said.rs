@@ -120,3 +120,24 @@ fn what_a_profile_may_say_of_the_start_is_named() {
     assert!(what.contains("absolute or incremental mode"), "{what}");
     assert!(what.contains("Say in the source's profile what its machine begins in: [start] codes"), "{what}");
 }
+
+/// No code of this control but that for it ends a drilling cycle, so a program moves in one that an earlier program left. Where no
+/// program of the library leaves one, that is no question.
+#[test]
+fn a_cycle_that_no_program_of_the_library_leaves_is_no_question() {
+    let cc100 = "dialect = \"cc100\"\nunits = \"metric\"\n";
+    let haas = "dialect = \"haas\"\nunits = \"metric\"\n";
+    let source = |end: &str| {
+        format!("N1 G90 G54\nN2 G0 X0 Y0 Z5\nN3 G81 V1=5 V2=-10\nN4 X10 Y10\n{end}N6 G0 X5\nN7 M30\n")
+    };
+    let target = |end: &str| {
+        format!("O1\nG90G54\nG0X0.Y0.Z5.\n#100=5\n#101=-10\nG81R5.Z-10.L0\nX10.Y10.\n{end}G0X5.\nM30\n")
+    };
+    let asks = |ends: [&str; 2]| {
+        let (outcome, what) = judged([cc100, haas], &source(ends[0]), &target(ends[1]));
+        assert_ne!(outcome, Outcome::Different, "{what}");
+        what.contains("the drilling cycle in force at its start")
+    };
+    assert!(!asks(["N5 G80\n", "G80\n"]));
+    assert!(asks(["", "X5.\n"]));
+}

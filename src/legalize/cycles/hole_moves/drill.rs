@@ -365,7 +365,7 @@ fn is_nothing_to_cycles(nc: &Nc) -> bool {
 }
 
 /// True for what leaves the tool's coordinate along Z alone.
-fn keeps_height(op: Op) -> bool {
+pub(in crate::legalize::cycles) fn keeps_height(op: Op) -> bool {
     use Group::*;
     if matches!(op, Op::Probe | Op::ProbeOther | Op::Thread) {
         return false;

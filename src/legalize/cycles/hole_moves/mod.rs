@@ -31,6 +31,7 @@ use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
 use crate::text::Span;
+pub(super) use drill::keeps_height;
 use drill::{Cycle, Drill, Height, Known, Runs, Told, tells, unplaced};
 use flow::{Flow, Vacancies, named_unit, says_motion, step};
 pub(super) use moves::has_moves;

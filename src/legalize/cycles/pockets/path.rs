@@ -28,6 +28,8 @@ pub(super) struct Pocket {
     pub fits: bool,
     /// True where the program moves aside after it at its depth.
     pub goes_on: bool,
+    /// True where the target keeps wear apart from a size: else the size of its table has it.
+    pub wears: bool,
 }
 
 /// Writes its moves.
@@ -56,9 +58,10 @@ fn cutter(builder: &mut Builder, pocket: &Pocket, temp: &mut u32, place: &Source
     *temp += 1;
     let var = Var { class: Class::Temp, number: *temp };
     let held = |state| Expr::System(state, [Expr::Number(pocket.offset)].into());
-    let both = Expr::binary(BinOp::Add, held(Sys::RadiusGeometry), held(Sys::RadiusWear));
+    let size = held(Sys::RadiusGeometry);
+    let size = if pocket.wears { Expr::binary(BinOp::Add, size, held(Sys::RadiusWear)) } else { size };
     let parts = Expr::Number(pocket.parts);
-    let whole = Expr::Call(Func::Round, [Expr::binary(BinOp::Mul, both, parts.clone())].into());
+    let whole = Expr::Call(Func::Round, [Expr::binary(BinOp::Mul, size, parts.clone())].into());
     let value = Expr::binary(BinOp::Div, whole, parts);
     builder.push(StmtKind::Assign { target: Place::Var(var), value }, place.clone());
     if pocket.fits {

@@ -27,6 +27,9 @@ pub struct Inputs {
     pub turns_by_sign: bool,
     /// Where the target's profile says that the second reference position is, along X and Z: millimetres, X a diameter.
     pub second_home: [Option<f64>; 2],
+    /// True where tools are not worn: a code of the source takes a tool's radius by itself, and the target keeps no wear apart, so
+    /// that the shop's table there holds both in one number.
+    pub unworn: bool,
     /// True if the control has tool offsets past 99.
     pub many_tools: bool,
     /// The unit that the machine must be set to, where the program checks it: true for inch.

@@ -288,6 +288,7 @@ impl<'c> Reader<'c> {
             rotary: [false; 3],
             turns_by_sign: false,
             second_home: [None; 2],
+            unworn: false,
             many_tools: false,
             inch: self.inch,
             selected: self.selected,
