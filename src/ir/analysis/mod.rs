@@ -33,7 +33,7 @@ pub use live_statics::{LiveStatics, statics};
 pub use liveness::{Liveness, Transfer, Ways, live_after};
 pub use modal::{Modal, Setting, calls_of, span_of};
 pub use modal_facts::{ModalFacts, replace_statements};
-pub use ranges::{Numbers, Ranges, Values};
+pub use ranges::{LAST_P, Numbers, Ranges, Values};
 pub use set::{BitRow, Universe, VarSet};
 pub use temps::Temps;
 pub use text_ends::{last_place, text_ends};

@@ -194,6 +194,13 @@ pub(in crate::legalize) struct Number {
     read: bool,
 }
 
+impl Number {
+    /// True where it stands for what was in force where the program read it.
+    pub(in crate::legalize) fn is_read(&self) -> bool {
+        self.read
+    }
+}
+
 /// The numbers that a code may be; none if that is not known.
 pub(in crate::legalize) fn numbers<'p>(
     value: &Expr,

@@ -21,6 +21,7 @@ use crate::ir::{Bank, Expr, Module, Program, constant_part};
 use crate::legalize::Context;
 use crate::legalize::by_program::look_with;
 use crate::legalize::variables::banks::{all_numbers, each_index};
+use crate::legalize::variables::state::additional;
 use crate::text::Span;
 use found::Found;
 use numbers::{Numbers, Table};
@@ -64,7 +65,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let numbers = || Numbers::new(source, target, table.clone());
     let summaries = context.summaries(module);
     let summaries = &*summaries;
-    let all = look_with(module, numbers, |numbers, _, program| Looked::at(program, summaries, numbers));
+    // That none is in force is asked where it is read which is.
+    let standard = !additional::may_select(module, context);
+    let look = |numbers: &mut Numbers<'_>, _: usize, program: &Program| {
+        Looked::at(program, summaries, standard, numbers)
+    };
+    let all = look_with(module, numbers, look);
     let mut reached = Reached { table: table.clone(), ..Reached::default() };
     let mut moving: Vec<usize> = Vec::new();
     for (index, looked) in all.into_iter().enumerate() {
@@ -92,9 +98,9 @@ struct Looked {
 }
 
 impl Looked {
-    fn at(program: &Program, summaries: &Summaries, numbers: &mut Numbers<'_>) -> Self {
+    fn at(program: &Program, summaries: &Summaries, standard: bool, numbers: &mut Numbers<'_>) -> Self {
         let mut looked = Self::default();
-        let ranges = LazyCell::new(|| Ranges::of(program, summaries));
+        let ranges = LazyCell::new(|| Ranges::of_offsets(program, summaries, standard));
         let assigned = Assigned::new(program, summaries);
         // Numbers that others in the same block are known to be: they are no strays.
         let mut known: Vec<(Span, analysis::Numbers)> = Vec::new();

@@ -203,11 +203,13 @@ fn compare_there(cond: &mut Cond, (source, target): (&Control, &Control)) -> boo
                 return !reads_modal(read) && !reads_modal(number);
             };
             let group = subscripts.first().and_then(Expr::constant);
-            let Some(there) = group.and_then(|group| number_there(group, value, source, target)) else {
-                return false;
+            let there = |group| {
+                let settled = number_there(group, value, source, target).map(|there| (there, true));
+                settled.or_else(|| additional_there(group, value, source, target).map(|there| (there, false)))
             };
+            let Some((there, settles)) = group.and_then(there) else { return false };
             *number = Expr::Number(there);
-            true
+            settles
         }
         Cond::Compare(_, a, b) => !reads_modal(a) && !reads_modal(b),
         // Each is looked at.
@@ -235,6 +237,18 @@ fn number_there(group: f64, number: f64, source: &Control, target: &Control) -> 
     let (op, offset, _) = codes(group, source).into_iter().find(|(.., own)| *own == number)?;
     let mut there = codes(group, target).into_iter();
     there.find(|(other, selects, _)| *other == op && *selects == offset).map(|(.., number)| number)
+}
+
+/// The number on the target of the code that selects an additional work offset by a word, where the source has this number for
+/// it. That it is what is read there no maker's text says, so it settles nothing.
+fn additional_there(group: f64, number: f64, source: &Control, target: &Control) -> Option<f64> {
+    Group::WorkOffset.number().filter(|own| f64::from(*own) == group)?;
+    let head = |control: &Control| {
+        let mut rows = control.dialect().codes.iter().filter(|row| row.op == Op::SelectWork && row.preferred);
+        rows.find(|row| row.code.contains(' ')).and_then(|row| row.head()).map(|head| head.number())
+    };
+    head(source).filter(|own| *own == number)?;
+    head(target)
 }
 
 /// True for a condition that tests a code, which such a target takes as it stands.

@@ -4,6 +4,7 @@
 //! cycle start are a millisecond timer, set to 0 where the main program starts, over a thousand. A position whose
 //! frame no source settles is taken as the work position, with a review diagnostic from lowering.
 
+pub(super) mod additional;
 mod findings;
 
 use crate::canon::{Group, Op, Role, Sys};
@@ -45,7 +46,7 @@ pub fn concerns(features: &Features) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let (source, target) = (context.source, context.target);
     let (mut timed, mut changed) = (BTreeSet::new(), Vec::new());
-    let additional = may_select_more(module);
+    let additional = additional::may_select(module, context);
     for (index, program) in module.programs.iter_mut().enumerate() {
         if !context.may_concern(index, concerns) {
             continue;
@@ -53,6 +54,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
         changed.push(index);
         let mut found = Vec::<(Span, Finding)>::new();
         let compared = modal_reads::compared(program, (source, target));
+        if !additional {
+            additional::stop_reads(program, (source, target), &mut found);
+        }
         rewrite_program(
             program,
             |e| matches!(e, Expr::System(..)),
@@ -84,20 +88,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     }
     changed
 }
-
-/// True if a program may select a work offset other than the standard six.
-fn may_select_more(module: &Module) -> bool {
-    let more = |nc: &Nc| {
-        let number = nc.word(Role::WorkOffset).map(Expr::constant);
-        number.is_some_and(|number| number.is_none_or(|number| number > STANDARD_OFFSETS))
-            || nc.items.iter().any(|item| matches!(item, NcItem::Code('G', _)))
-    };
-    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
-    stmts.filter_map(|stmt| stmt.kind.nc()).any(more)
-}
-
-/// G54 to G59.
-const STANDARD_OFFSETS: f64 = 6.0;
 
 fn wired(state: Sys) -> bool {
     use Sys::*;

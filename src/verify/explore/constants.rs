@@ -17,6 +17,7 @@ use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
 use crate::syntax::{BinaryOp, Block, Expr, ExprKind, Index, Item, ItemKind, Target, TestSubject, VarRef};
 use crate::text::Span;
+use crate::verify::explore::steer::Input;
 use crate::verify::sides::{Side, class_of, name_of};
 use jumps::{Jumps, State, goes, is_plain, join, keeps_locals};
 use known::{Known, Range};
@@ -54,9 +55,11 @@ fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i
     let may_be = links.is_called(program) || !text.iter().all(|block| is_plain(&block.items, control));
     let modal = may_be && links.has_modal_calls();
     let mut jumps = Jumps::of(text, control, links.returns_to_blocks());
+    let six = !links.selects_more();
     let begin = |jumps| Reader {
         control,
         looks,
+        six,
         modal,
         jumps,
         known: State::new(),
@@ -77,12 +80,17 @@ fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i
     reader.out
 }
 
+/// The numbers of the codes of the standard work offsets, on every control that has such codes.
+const SELECTED: Range = Range { low: 54.0, high: 59.0, whole_of: Some(String::new()) };
+
 /// How often a text is read for what holds round its loops.
 const ROUNDS: usize = 8;
 
 struct Reader<'c> {
     control: &'c Control,
     looks: Looks,
+    /// True where no program selects a work offset other than the standard six. That none is in force is asked of a person.
+    six: bool,
     /// True if its moves may be calls.
     modal: bool,
     jumps: Jumps,
@@ -315,6 +323,9 @@ impl Reader<'_> {
         let Index::Number(number) = variable.index else { return None };
         match self.control.read_system(&variable.name, Some(number)) {
             Some((Sys::Empty, ..)) => Some(Known::Vacant),
+            Some((state, subscripts, _)) if self.six && Input::is_selected(state, &subscripts) => {
+                Some(Known::Number(SELECTED))
+            }
             // What the machine says is a number.
             Some(_) => Some(Known::Number(Range::ANY)),
             None => self.known.get(&self.name(variable)?).cloned(),

@@ -3,9 +3,10 @@
 //! Worked out once for a side, whatever the number of programs that are verified.
 
 use super::program_texts::ProgramTexts;
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::control::{ProgramRef, Run, trace};
-use crate::syntax::{ExprKind, Item, ItemKind, ProgramName, Word};
+use crate::dialect::CodeHead;
+use crate::syntax::{ExprKind, Item, ItemKind, ProgramName, Word, for_each_item};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Calls nest no deeper than this on an emulated control, so what lies deeper no run comes to.
@@ -34,7 +35,12 @@ pub struct Links {
     has_modal_calls: bool,
     /// True where a program returns to a block of its caller.
     returns_to_blocks: bool,
+    /// True where a program may select a work offset other than the standard six.
+    selects_more: bool,
 }
+
+/// G54 to G59.
+const STANDARD_OFFSETS: f64 = 6.0;
 
 /// The letters of the rotary axes.
 const ROTARY: [char; 3] = ['A', 'B', 'C'];
@@ -92,6 +98,10 @@ impl Links {
             let names = words(&block.items).any(|word| word.letter == 'P');
             let returns = own && ops().any(|op| op == Some(Op::Return));
             self.returns_to_blocks |= names && (computed || returns);
+            for_each_item(&block.items, &mut |item| {
+                let ItemKind::Word(word) = &item.kind else { return };
+                self.selects_more |= own && word.letter == 'G' && may_select_more(side, word, names);
+            });
         }
         let name = side.name(program);
         if let (Some(named), Some(ran)) = (self.named.last_mut(), self.ran.last_mut()) {
@@ -146,6 +156,11 @@ impl Links {
     /// True where some program may return to a block of its caller that it names.
     pub fn returns_to_blocks(&self) -> bool {
         self.returns_to_blocks
+    }
+
+    /// True where some program may select a work offset other than the standard six.
+    pub fn selects_more(&self) -> bool {
+        self.selects_more
     }
 
     /// True for each of A, B and C that the machine has by its profile, or that a program has a word of.
@@ -279,6 +294,17 @@ fn gives_arguments(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
 fn op(side: &ProgramTexts<'_>, word: &Word) -> Option<Option<Op>> {
     let known = |number| side.control.code(word.letter, number, &[]).map_or(Op::Builder, |row| row.op);
     matches!(word.letter, 'G' | 'M').then(|| number(word).map(known))
+}
+
+/// True for a G code that may select a work offset other than the standard six; `names` says whether a P stands beside it.
+fn may_select_more(side: &ProgramTexts<'_>, word: &Word, names: bool) -> bool {
+    let Some(head) = number(word).and_then(|number| CodeHead::new('G', number)) else { return names };
+    let mut rows = side.control.rows_of(head).filter(|row| row.op == Op::SelectWork);
+    rows.any(|row| {
+        let after = row.head().map_or(0.0, |first| head.number() - first.number());
+        let fixed = row.fixed.get(&Role::WorkOffset);
+        fixed.map_or(names, |first| first + after > STANDARD_OFFSETS)
+    })
 }
 
 /// The words of a block that stand under no condition.

@@ -12,16 +12,21 @@ const BITS: u32 = 31;
 
 /// What an expression may be, where variables may be what `var` says.
 pub fn evaluate(expr: &Expr, var: &dyn Fn(Var) -> Values) -> Values {
-    value(expr, var, DEPTH)
+    value(expr, &|leaf| if let Expr::Var(name) = leaf { var(*name) } else { Values::ANY }, DEPTH)
 }
 
-fn value(expr: &Expr, var: &dyn Fn(Var) -> Values, depth: usize) -> Values {
+/// The same, where variables and machine state may be what `leaf` says.
+pub fn evaluate_of(expr: &Expr, leaf: &dyn Fn(&Expr) -> Values) -> Values {
+    value(expr, leaf, DEPTH)
+}
+
+fn value(expr: &Expr, leaf: &dyn Fn(&Expr) -> Values, depth: usize) -> Values {
     let Some(depth) = depth.checked_sub(1) else { return Values::ANY };
-    let of = |e: &Expr| value(e, var, depth);
+    let of = |e: &Expr| value(e, leaf, depth);
     match expr {
         Expr::Number(number) => Values::one(*number),
         Expr::Vacant => Values::one(0.0),
-        Expr::Var(name) => var(*name),
+        Expr::Var(_) | Expr::System(..) => leaf(expr),
         Expr::Negate(inner) => of(inner).negated(),
         Expr::Binary(op, operands) => binary(*op, &of(&operands[0]), &of(&operands[1])),
         Expr::Call(function, arguments) => match arguments.as_slice() {
@@ -29,7 +34,7 @@ fn value(expr: &Expr, var: &dyn Fn(Var) -> Values, depth: usize) -> Values {
             _ => Values::ANY,
         },
         Expr::Truth(_) => Values::whole(0.0, 1.0),
-        Expr::Increments(_) | Expr::Indirect(..) | Expr::System(..) => Values::ANY,
+        Expr::Increments(_) | Expr::Indirect(..) => Values::ANY,
     }
 }
 

@@ -17,6 +17,7 @@ mod values;
 mod tests;
 
 pub use evaluate::evaluate;
+use evaluate::evaluate_of;
 pub use numbers::Numbers;
 pub use values::Values;
 
@@ -24,6 +25,7 @@ use super::cfg::labelled;
 use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve_within};
 use super::effects::{Summaries, Vars};
 use super::{Cfg, VarSet};
+use crate::canon::{Group, Sys};
 use crate::ir::{Bank, Block, BlockId, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use followed::{followed, in_codes, in_numbers, in_whole_words, stops, told_of};
 use std::borrow::Cow;
@@ -60,6 +62,8 @@ struct Rules<'p> {
     inputs: BTreeSet<(BlockId, usize)>,
     /// Where bounds may stop.
     stops: Vec<f64>,
+    /// True where no work offset but one of the standard six is in force.
+    standard: bool,
 }
 
 impl Lattice for State {
@@ -153,8 +157,14 @@ impl<'p> Ranges<'p> {
     /// The values in a program of the library that `summaries` are of; a literal at its head is an input unless the
     /// program assigns its variable elsewhere.
     pub fn of(program: &'p Program, summaries: &'p Summaries) -> Self {
+        Self::of_offsets(program, summaries, false)
+    }
+
+    /// As [`Ranges::of`]; `standard` where no work offset but one of the standard six is in force.
+    pub fn of_offsets(program: &'p Program, summaries: &'p Summaries, standard: bool) -> Self {
         let inputs = head_literals(program).into_iter().filter(|(.., var)| assigned(program, *var) == 1);
-        Self::with(program, summaries, inputs.map(|(id, at, _)| (id, at)).collect())
+        let inputs = inputs.map(|(id, at, _)| (id, at)).collect();
+        Self::following(program, summaries, inputs, in_numbers(program), standard)
     }
 
     /// As [`Ranges::of`]; every literal at the head is an input.
@@ -167,28 +177,28 @@ impl<'p> Ranges<'p> {
     pub fn of_whole_words(program: &'p Program, summaries: &'p Summaries) -> Self {
         let inputs = head_literals(program).into_iter().filter(|(.., var)| assigned(program, *var) == 1);
         let inputs = inputs.map(|(id, at, _)| (id, at)).collect();
-        Self::following(program, summaries, inputs, in_whole_words(program))
+        Self::following(program, summaries, inputs, in_whole_words(program), false)
     }
 
     /// As [`Ranges::of_any_inputs`], of these variables.
     pub fn of_these(program: &'p Program, summaries: &'p Summaries, vars: BTreeSet<Var>) -> Self {
         let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));
-        Self::following(program, summaries, inputs.collect(), vars)
+        Self::following(program, summaries, inputs.collect(), vars, false)
     }
 
     /// As [`Ranges::of_any_inputs`], of the numbers of codes too.
     pub fn of_any_inputs_and_codes(program: &'p Program, summaries: &'p Summaries) -> Self {
         let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));
-        Self::following(program, summaries, inputs.collect(), in_codes(program))
+        Self::following(program, summaries, inputs.collect(), in_codes(program), false)
     }
 
     /// As [`Ranges::of_any_inputs_and_codes`], where every literal is taken for what it is: nobody edits one.
     pub fn of_constants_and_codes(program: &'p Program, summaries: &'p Summaries) -> Self {
-        Self::following(program, summaries, BTreeSet::new(), in_codes(program))
+        Self::following(program, summaries, BTreeSet::new(), in_codes(program), false)
     }
 
     fn with(program: &'p Program, summaries: &'p Summaries, inputs: BTreeSet<(BlockId, usize)>) -> Self {
-        Self::following(program, summaries, inputs, in_numbers(program))
+        Self::following(program, summaries, inputs, in_numbers(program), false)
     }
 
     fn following(
@@ -196,13 +206,14 @@ impl<'p> Ranges<'p> {
         summaries: &'p Summaries,
         inputs: BTreeSet<(BlockId, usize)>,
         vars: BTreeSet<Var>,
+        standard: bool,
     ) -> Self {
         let followed = followed(program, vars);
         let limit = STEPS.checked_div(followed.len());
         let told = if followed.is_empty() { VarSet::default() } else { told_of(program) };
         let kept = followed.into_iter().filter(|var| told.contains(*var));
         let places: BTreeMap<Var, usize> = kept.enumerate().map(|(at, var)| (var, at)).collect();
-        let rules = Rules { program, summaries, places, inputs, stops: stops(program) };
+        let rules = Rules { program, summaries, places, inputs, stops: stops(program), standard };
         let starts = limit.and_then(|limit| solve_within(&rules, program, &Cfg::of(program), limit));
         Self { rules, starts, cursor: RefCell::default() }
     }
@@ -218,7 +229,11 @@ impl<'p> Ranges<'p> {
 
 impl Rules<'_> {
     fn evaluate(&self, expr: &Expr, state: &State) -> Values {
-        evaluate(expr, &|var| self.value(var, state))
+        evaluate_of(expr, &|leaf| match leaf {
+            Expr::Var(var) => self.value(*var, state),
+            Expr::System(which, subscripts) if self.standard => selected(*which, subscripts),
+            _ => Values::ANY,
+        })
     }
 
     fn value(&self, var: Var, state: &State) -> Values {
@@ -278,6 +293,21 @@ impl Rules<'_> {
         }
     }
 }
+
+/// What state may be where one of the standard work offsets is in force: the number of its code, and none of an additional one.
+fn selected(state: Sys, subscripts: &[Expr]) -> Values {
+    let of = subscripts.first().and_then(Expr::constant);
+    match state {
+        Sys::Modal if of.is_some() && of == Group::WorkOffset.number().map(f64::from) => {
+            Values::of((54..=59).map(f64::from).collect())
+        }
+        Sys::Address if of == Some(LAST_P) => Values::Few(Vec::new()),
+        _ => Values::ANY,
+    }
+}
+
+/// The letter P, counted from A as 1: the last P that controls keep is that of an additional work offset.
+pub const LAST_P: f64 = 16.0;
 
 /// The literals that are assigned before anything can branch, by block and statement.
 fn head_literals(program: &Program) -> Vec<(BlockId, usize, Var)> {

@@ -14,6 +14,8 @@ pub(super) enum Finding {
     Missing(Sys, Option<String>, Option<String>),
     /// A variable that only the source's control has, by its name, with what the table notes of it.
     Own(String, Option<String>),
+    /// The same, where an alarm stands for the block that reads it.
+    NotTold(String, Option<String>),
     /// A variable of the target, by the name of its fact.
     Unconfirmed(Sys, String, String),
     /// Codes of a group that is read have another number there; true if it is that of work offsets.
@@ -69,6 +71,14 @@ impl Finding {
                 let help = "if nothing that runs here needs it, take out what reads or sets it; else write the number that is \
                             meant in its place";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+            }
+            Finding::NotTold(variable, note) => {
+                let note = note.map(|note| format!(" ({note})")).unwrap_or_default();
+                let what = format!(
+                    "{variable}{note} is read, and {title} has no variable for it: an alarm stands in its place. No \
+                     program of the library selects an additional work offset, so make sure that nothing else leaves one in force"
+                );
+                context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()).asked_once());
             }
             Finding::ReadOnly(state) => {
                 let what = format!("{title} cannot write '{state}'");

@@ -121,6 +121,8 @@ impl Range {
     pub fn compare(&self, op: BinaryOp, other: &Self) -> Option<bool> {
         use BinaryOp::*;
         let decide = |yes: bool, no: bool| if yes { Some(true) } else { no.then_some(false) };
+        // A whole number is no fraction.
+        let parts = |a: &Self, b: &Self| a.whole_of.is_some() && b.low == b.high && b.low.fract() != 0.0;
         match op {
             Less => decide(self.high < other.low, self.low >= other.high),
             LessEqual => decide(self.high <= other.low, self.low > other.high),
@@ -128,7 +130,7 @@ impl Range {
             GreaterEqual => other.compare(LessEqual, self),
             Equal => decide(
                 self.low == self.high && (other.low, other.high) == (self.low, self.low),
-                self.high < other.low || self.low > other.high,
+                self.high < other.low || self.low > other.high || parts(self, other) || parts(other, self),
             ),
             NotEqual => self.compare(Equal, other).map(|same| !same),
             _ => None,
