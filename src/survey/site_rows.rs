@@ -48,6 +48,9 @@ fn line(text: &mut String, code: &AskedCode, goes: bool) {
     let how = if code.block.contains(&code.code) { "as in" } else { "goes with" };
     let mut about = format!("{programs}{}; {how}: {}", code.places.join(", "), code.block);
     about.push_str(match code.op {
+        Some(Op::Probe) if code.code.contains(" R") => {
+            "; where R says how the move stops, and the target may stop it its own way; else do = \"alarm\" in place of op"
+        }
         Some(Op::Probe) => {
             "; where the probe of this signal ends the moves of the target's code too; else do = \"alarm\" in place of op"
         }

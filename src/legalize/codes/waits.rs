@@ -70,26 +70,36 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 
 /// Waits in a program before what would be early, by a limit or a wait; true where any were put in.
 pub(super) fn hold(program: &mut Program, come_back: bool, limits: bool) -> bool {
-    let follows = following(program, come_back);
+    let before = before(program, come_back, limits);
     // Statements after a wait are at their place until the next move.
-    let (mut waited, mut changed) = (false, false);
-    for (block, follows) in program.blocks.iter_mut().zip(follows) {
-        waited &= follows;
+    let mut left: Vec<bool> = Vec::with_capacity(before.len());
+    let mut changed = false;
+    for (block, before) in program.blocks.iter_mut().zip(before) {
+        // A block that comes later in the text has not been looked at.
+        let mut waited = before.is_some_and(|all| all.iter().all(|at| left.get(*at) == Some(&true)));
         changed |= look(block, &mut waited, limits);
+        left.push(waited);
     }
     changed
 }
 
-/// By block: true where only the block before it leads there, and does no more than go on.
-fn following(program: &Program, come_back: bool) -> Vec<bool> {
+/// By block: those that lead there and do no more than go on, if nothing else leads there. Where a limit holds reading back, those of a
+/// condition too: each wait takes five blocks there.
+fn before(program: &Program, come_back: bool, limits: bool) -> Vec<Option<Vec<usize>>> {
     let cfg = Cfg::whole(program, come_back);
     let modal: BTreeSet<BlockId> = modal_bodies(program).collect();
-    let only = |id: BlockId| {
-        let before = id.index().checked_sub(1).and_then(|at| program.blocks.get(at));
-        let goes_on = before.is_some_and(|block| block.term.kind == TermKind::Jump(id));
-        goes_on && cfg.preds(id).len() == 1 && !cfg.roots().contains(&id) && !modal.contains(&id)
+    let all = |id: BlockId| {
+        let all: Vec<usize> = cfg.preds(id).iter().map(|pred| pred.index()).collect();
+        let goes_on = |at: &usize| match program.blocks.get(*at).map(|block| &block.term.kind) {
+            Some(TermKind::Jump(_)) => limits || *at + 1 == id.index(),
+            Some(TermKind::Branch { .. }) => limits,
+            _ => false,
+        };
+        let known = if limits { !all.is_empty() } else { all.len() == 1 };
+        let is_entered = cfg.roots().contains(&id) || modal.contains(&id);
+        (known && !is_entered && all.iter().all(goes_on)).then_some(all)
     };
-    program.ids().map(only).collect()
+    program.ids().map(all).collect()
 }
 
 /// True for a program in which cutter compensation may begin.

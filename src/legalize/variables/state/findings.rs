@@ -78,7 +78,11 @@ impl Finding {
                     "{variable}{note} is read, and {title} has no variable for it: an alarm stands in its place. No \
                      program of the library selects an additional work offset, so make sure that nothing else leaves one in force"
                 );
-                context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()).asked_once());
+                context.add_once(
+                    index,
+                    &what,
+                    Diagnostic::new(Code::Conditional, span, what.clone()).asked_once(),
+                );
             }
             Finding::ReadOnly(state) => {
                 let what = format!("{title} cannot write '{state}'");

@@ -21,8 +21,15 @@ fn is_unnamed(text: &[u8]) -> bool {
         in_comment = if in_comment { *byte != b')' } else { *byte == b'(' };
         let after = text[at + 1..].trim_ascii_start().first();
         let numbers = after.is_some_and(|after| after.is_ascii_digit() || matches!(after, b'#' | b'['));
+        let stands_before = |word: &[u8]| {
+            let before = text.get(..at).unwrap_or_default().trim_ascii_end();
+            before.len() >= word.len() && before[before.len() - word.len()..].eq_ignore_ascii_case(word)
+        };
         let names = match byte.to_ascii_uppercase() {
-            b'N' | b'O' | b':' | b'D' => numbers,
+            b'N' | b':' => numbers,
+            // Not that of GOTO, which names another block.
+            b'O' => numbers && !stands_before(b"GOT"),
+            b'D' => numbers && stands_before(b"EN"),
             b'%' | b'<' => true,
             _ => false,
         };
@@ -95,8 +102,7 @@ impl<'a> Lowering<'a> {
             } else {
                 self.block(block, piece.head == Some(at));
             }
-            let says_nothing = refused || !block.items.iter().any(acts);
-            self.is_over = !self.builder.is_open() || is_dead && says_nothing;
+            self.is_over = !self.builder.is_open() || is_dead;
         }
         self.close_loops();
         self.close_hub();
@@ -113,6 +119,10 @@ impl<'a> Lowering<'a> {
             self.motion.join();
         }
         let mut site = site(block, self.source);
+        if block.span.of(self.source).trim_ascii().is_empty() {
+            // Spaces alone say as little as a line with nothing on it.
+            site.span = Span::default();
+        }
         if is_head {
             // They are the program's.
             site.comments.clear();

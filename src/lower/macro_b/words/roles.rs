@@ -42,6 +42,11 @@ impl<'a> Lowering<'a> {
         if let Some((role, row)) = found {
             return Some((role, Some(row)));
         }
+        // Beside a probe move it is no word of an arc that was in force before.
+        if word.letter == 'R' && codes.iter().any(|(_, row)| row.op == Op::Probe) {
+            self.no_role(word, span, codes, None);
+            return None;
+        }
         let usual = self.codes.letter(word.letter, word.comma);
         let own = codes.iter().rev().find(|(_, row)| matches!(row.op.group(), Group::Motion | Group::Cycle));
         let in_force = match own {
@@ -273,41 +278,6 @@ impl<'a> Lowering<'a> {
         let others =
             rows().any(|other| matches!(explicit(other, word), Some(Role::CycleDwell | Role::CycleQ)));
         (others && !word.comma && self.control.machine() == Machine::Mill).then_some(row.code.as_str())
-    }
-
-    /// What to do where a builder's word beside a code of the spindle says which spindle it is: `M3 P11`.
-    fn spindle_by_word(&self, word: &Word, codes: &BlockCodes<'a>) -> Option<(String, Asks)> {
-        let spindle = |op: Op| matches!(op, Op::SpindleCw | Op::SpindleCcw | Op::SpindleStop);
-        let (_, row) = codes.iter().find(|(_, row)| spindle(row.op))?;
-        let ExprKind::Number(number) = &word.value.as_ref()?.kind else { return None };
-        if word.letter != 'P' || word.comma || number.value.fract() != 0.0 {
-            return None;
-        }
-        let code = format!("{} P{}", row.code, number.value);
-        let help = format!(
-            "if P says which spindle it is, name the code with it in the machine's profile: [[site]] with code = \"{code}\", op = \"{}\", and a \
-             text, where it is the one that the target's {} turns; else with a name",
-            row.op, row.code
-        );
-        Some((help, Asks::Code { code: code.into(), op: Some(row.op) }))
-    }
-
-    /// What to do where a word beside a probe move says which signal ends it: `G31 P2`. Where the machine's builder wired the
-    /// tool setter to a signal of its own, the shop knows whether it ends such moves on the target.
-    fn signal_by_word(&self, word: &Word, codes: &BlockCodes<'a>) -> Option<(String, Asks)> {
-        let (_, row) = codes.iter().find(|(_, row)| row.op == Op::Probe)?;
-        let ExprKind::Number(number) = &word.value.as_ref()?.kind else { return None };
-        let is_signal = (1.0..10.0).contains(&number.value) && number.value.fract() == 0.0;
-        if word.letter != 'P' || word.comma || !is_signal {
-            return None;
-        }
-        let code = format!("{} P{}", row.code, number.value);
-        let help = format!(
-            "if P says which signal ends the move, name the code with it in the machine's profile: [[site]] with code = \"{code}\", op = \"{}\", \
-             and a text, where the same probe ends the moves of the target",
-            row.op
-        );
-        Some((help, Asks::Code { code: code.into(), op: Some(row.op) }))
     }
 
     /// Signs of a lathe program that a mill's table would read as something else: `G50 S3000`,
