@@ -8,6 +8,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:address.not.programmed", "an address that was never programmed reads as 0"),
     ("machine:arc.radius.full.circle", "an arc by its radius that ends at its start moves nothing"),
     ("machine:arc.tangent", "an arc tangent to the move before it is taken as a straight move"),
+    ("machine:argument.signed", "an argument with a sign before its vacant variable is 0 in the macro"),
     ("machine:arithmetic.last.digit", "short arithmetic decides as if its last digit were right"),
     ("machine:block.behind.branch", "the rest of the block after a branch is left out"),
     ("machine:condition.at.start", "a condition that nothing has set is false"),

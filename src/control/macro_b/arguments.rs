@@ -116,6 +116,9 @@ impl<'c> Runner<'c> {
     /// on some controls and for some letters.
     fn argument(&mut self, word: &Word) -> Result<Option<f64>, Halt> {
         let value = self.eval(&word.value)?;
+        if word.form == Form::Wrapped && value.is_some() && self.is_vacant(word)? {
+            self.session.trace.doubt("machine:argument.signed");
+        }
         let Some(number) = value.filter(|value| word.form == Form::Bare && *value != 0.0) else {
             return Ok(value);
         };

@@ -78,7 +78,7 @@ impl<'c> Runner<'c> {
     }
 
     /// True where the one variable of a word is vacant.
-    fn is_vacant(&mut self, word: &Word) -> Result<bool, Halt> {
+    pub(super) fn is_vacant(&mut self, word: &Word) -> Result<bool, Halt> {
         use super::code::Ex;
         let mut inner = &word.value;
         while let Ex::Group(next) | Ex::Negate(next) | Ex::Plus(next) = inner {

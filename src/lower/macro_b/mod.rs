@@ -50,9 +50,18 @@ pub(super) fn lower(parsed: &ParsedFile<'_>, file: usize, control: &Control) -> 
         (codes, findings) = (met, found);
         let site = program_site(parsed, &piece);
         let program = builder.finish(piece.name, file, site);
-        if signed && let Some(span) = program::signed_word(&program, !control.is(Question::M99PJumpsHere)) {
-            let note = "no source says that the control drops a word with a sign before its vacant variable";
-            findings.unconfirmed(Question::BracketVacantWord.fact().into(), Some(note), span);
+        if signed {
+            let found = program::signed_variables(&program, !control.is(Question::M99PJumpsHere));
+            if let Some(span) = found.word {
+                let note =
+                    "no source says that the control drops a word with a sign before its vacant variable";
+                findings.unconfirmed(Question::BracketVacantWord.fact().into(), Some(note), span);
+            }
+            if let Some(span) = found.argument {
+                let note = "no source says whether an argument with a sign before its vacant variable, A-#1, is 0 in the macro or \
+                            vacant; it is taken as 0: set the variable before the call";
+                findings.unconfirmed("machine:argument.signed".into(), Some(note), span);
+            }
         }
         programs.push((program, findings.take_list()));
     }

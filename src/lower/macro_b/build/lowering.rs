@@ -50,7 +50,7 @@ pub struct Lowering<'a> {
     pub at: usize,
     /// True in a program that a code calls, where such codes call nothing.
     pub aliased: bool,
-    /// True where a word has a signed variable for its value.
+    /// True where a word or an argument has a signed variable for its value.
     pub signed: bool,
     /// True while the look-ahead is limited, as the text has it.
     pub lookahead_limited: bool,

@@ -4,4 +4,4 @@ mod block;
 mod statement;
 mod vacancy;
 
-pub use vacancy::signed_word;
+pub use vacancy::signed_variables;

@@ -1,4 +1,4 @@
-//! Where a signed variable in a word may be vacant.
+//! Where a signed variable in a word, or in an argument of a call, may be vacant.
 //!
 //! `X#1` is dropped when #1 is vacant. That `X-#1` is dropped too, no source says. It
 //! matters only where the variable may be vacant there, so that is what is looked for:
@@ -6,7 +6,7 @@
 
 use crate::ir::analysis::dataflow::{Every, Flow};
 use crate::ir::{
-    BlockId, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, StmtKind, TermKind, Var,
+    BlockId, Call, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, StmtKind, TermKind, Var,
 };
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -14,9 +14,18 @@ use std::collections::BTreeSet;
 /// Variables that are sure to hold a number.
 type Sure = BTreeSet<Var>;
 
-/// The first block with a signed variable in a word that may be vacant there. With
-/// `returns_anywhere` a called program may return to any label.
-pub fn signed_word(program: &Program, returns_anywhere: bool) -> Option<Span> {
+/// The first blocks with a signed variable that may be vacant there.
+#[derive(Default)]
+pub struct Signed {
+    /// In a word.
+    pub word: Option<Span>,
+    /// In an argument of a call.
+    pub argument: Option<Span>,
+}
+
+/// Where a program has them. With `returns_anywhere` a called program may return to any label.
+pub fn signed_variables(program: &Program, returns_anywhere: bool) -> Signed {
+    let mut found = Signed::default();
     // A modal call runs after moves, and what it does to shared variables is not known here.
     let modal = (program.blocks.iter().flat_map(|block| &block.stmts))
         .any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
@@ -25,15 +34,40 @@ pub fn signed_word(program: &Program, returns_anywhere: bool) -> Option<Span> {
         let Some(Every(mut sure)) = sure else { continue };
         for stmt in &block.stmts {
             if signed(&stmt.kind).any(|var| !sure.contains(&var)) {
-                return Some(stmt.site.span);
+                found.word.get_or_insert(stmt.site.span);
+            }
+            if let StmtKind::ModalCall(call) = &stmt.kind
+                && given(call).any(|var| !sure.contains(&var))
+            {
+                found.argument.get_or_insert(stmt.site.span);
             }
             step(&stmt.kind, &mut sure);
             if modal {
                 sure.retain(|var| var.class == Class::Local);
             }
         }
+        if let TermKind::Call { call, .. } = &block.term.kind
+            && given(call).any(|var| !sure.contains(&var))
+        {
+            found.argument.get_or_insert(block.term.site.span);
+        }
     }
-    None
+    found
+}
+
+/// The variables that stand in an argument with a sign before them.
+fn given(call: &Call) -> impl Iterator<Item = Var> + '_ {
+    call.arguments.iter().filter_map(|argument| signed_variable(&argument.value))
+}
+
+fn signed_variable(value: &Expr) -> Option<Var> {
+    match value {
+        Expr::Negate(inner) => match **inner {
+            Expr::Var(var) if var.class.nullable() => Some(var),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 /// The variables that stand in a word with a sign before them.
@@ -43,10 +77,7 @@ fn signed(kind: &StmtKind) -> impl Iterator<Item = Var> + '_ {
         _ => &[],
     };
     items.iter().filter_map(|item| match item {
-        NcItem::Word(_, Expr::Negate(inner)) => match **inner {
-            Expr::Var(var) if var.class.nullable() => Some(var),
-            _ => None,
-        },
+        NcItem::Word(_, value) => signed_variable(value),
         _ => None,
     })
 }

@@ -153,3 +153,16 @@ fn signed_variables_that_may_be_vacant() {
     assert_eq!(told("haas", "#1=2.\nG65 P1\nG0X-#1", FACT), 0);
     assert_eq!(told("haas", "#101=2.\nG65 P1\nG0X-#101", FACT), 1);
 }
+
+/// Whether the macro finds such an argument vacant or 0 no source says.
+#[test]
+fn signed_variables_in_arguments_that_may_be_vacant() {
+    const FACT: &str = "machine:argument.signed";
+    rests_on("fanuc", "G65P2A-#9B1.", FACT);
+    rests_on("haas", "G65P2A-#9B1.", FACT);
+    rests_on("fanuc", "G66P2A-#9", FACT);
+    assert_eq!(told("fanuc", "G65P2A#9B1.", FACT), 0);
+    assert_eq!(told("fanuc", "#9=2.\nG65P2A-#9B1.", FACT), 0);
+    assert_eq!(told("fanuc", "IF[#9EQ#0]GOTO9\nG65P2A-#9\nN9M30", FACT), 0);
+    assert_eq!(told("fanuc", "G65P2A[0-#9]", FACT), 0);
+}

@@ -74,6 +74,7 @@ impl<'a> Lowering<'a> {
                 continue;
             };
             let value = self.argument(letter, value);
+            self.signed |= matches!(value, Expr::Negate(_));
             let set = by_place && matches!(letter, 'I'..='K');
             if !set && words.iter().take(at).any(|(other, _)| !other.comma && other.letter == letter) {
                 let message = format!("{letter} is in this call twice: the later one is taken");
