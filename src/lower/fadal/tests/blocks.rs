@@ -143,7 +143,7 @@ fn what_no_source_says_is_reported_once() {
     assert_eq!(found("O1\nG1 X1.\nG3 Y1. I.5", ""), Vec::<String>::new());
     assert_eq!(found("O1\nS500.1", ""), ["SpeedRange"]);
     assert_eq!(found("O1\n/G0 X1.", ""), ["behaviour:skip.levels"]);
-    assert_eq!(found("O1\nG28", ""), ["code:G28"]);
+    assert_eq!(found("O1\nG28", ""), ["CommonFact"]);
     assert_eq!(found("O1\nG0 Z0 E0 Z0", ""), ["behaviour:word.twice"]);
     assert_eq!(found("O1\nR1+2.\nG1 R2+1. X+R2", ""), ["behaviour:block.assigns.first"]);
     assert_eq!(found("O1\nG0 X0\nG81 X0 Z-1. R0+.1\nR0+.2", ""), ["behaviour:cycle.r0.kept"]);
