@@ -27,7 +27,7 @@ pub struct Inputs {
     pub turns_by_sign: bool,
     /// Where the target's profile says that the second reference position is, along X and Z: millimetres, X a diameter.
     pub second_home: [Option<f64>; 2],
-    /// True where tools are not worn: a code of the source takes a tool's radius by itself, and the target keeps no wear apart, so
+    /// True where tools are not worn: a round pocket takes a tool's radius off by itself, and the target keeps no wear apart, so
     /// that the shop's table there holds both in one number.
     pub unworn: bool,
     /// True if the control has tool offsets past 99.

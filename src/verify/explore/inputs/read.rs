@@ -2,7 +2,7 @@
 
 use super::input::Inputs;
 use super::reader::Reader;
-use crate::canon::{Op, Sys};
+use crate::canon::Sys;
 use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
 use crate::syntax::{Item, ItemKind, Label};
@@ -22,16 +22,13 @@ pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs 
 pub fn set_for(found: Inputs, source: &Side<'_>, target: &Side<'_>) -> Inputs {
     let inch = found.inch.or(found.selected.filter(|_| !target.selects_unit()));
     let sets_named = lacks_messages(source.control) && !lacks_messages(target.control);
-    Inputs { inch, sets_named, unworn: unworn(source.control, target.control), ..found }
+    Inputs { inch, sets_named, unworn: found.unworn && !keeps_wear(target.control), ..found }
 }
 
-/// True where a code of the source takes the radius of its tool off, and the target keeps no wear of it apart.
-fn unworn(source: &Control, target: &Control) -> bool {
-    let pockets = [Op::PocketCw, Op::PocketCcw].into_iter();
-    let mut pockets = pockets.filter(|op| source.code_for(*op, &Default::default()).is_some());
-    let kept = |state| target.system_runs(state).next().is_some();
-    pockets.next().is_some()
-        && ![Sys::RadiusWear, Sys::DiameterWear, Sys::DiameterOrRadiusWear].into_iter().any(kept)
+/// True where a control keeps the wear of a tool's radius in a place of its own.
+fn keeps_wear(control: &Control) -> bool {
+    let kept = |state| control.system_runs(state).next().is_some();
+    [Sys::RadiusWear, Sys::DiameterWear, Sys::DiameterOrRadiusWear].into_iter().any(kept)
 }
 
 /// Labels that a computed jump is sent to, at the most, where one side is looked at.

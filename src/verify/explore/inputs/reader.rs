@@ -34,6 +34,8 @@ pub(super) struct Reader<'c> {
     pub(super) labels: Vec<u32>,
     inch: Option<bool>,
     selected: Option<bool>,
+    /// True if a code takes the radius of its tool off by itself: a round pocket.
+    pockets: bool,
 }
 
 impl<'c> Reader<'c> {
@@ -53,6 +55,7 @@ impl<'c> Reader<'c> {
             labels: Vec::new(),
             inch: None,
             selected: None,
+            pockets: false,
         }
     }
 
@@ -118,6 +121,7 @@ impl<'c> Reader<'c> {
             Some(Op::CheckMetric) => _ = self.inch.get_or_insert(false),
             Some(Op::Inch) => _ = self.selected.get_or_insert(true),
             Some(Op::Metric) => _ = self.selected.get_or_insert(false),
+            Some(Op::PocketCw | Op::PocketCcw) => self.pockets = true,
             _ => {}
         }
     }
@@ -288,7 +292,7 @@ impl<'c> Reader<'c> {
             rotary: [false; 3],
             turns_by_sign: false,
             second_home: [None; 2],
-            unworn: false,
+            unworn: self.pockets,
             many_tools: false,
             inch: self.inch,
             selected: self.selected,
