@@ -105,7 +105,7 @@ fn a_number_that_the_target_lacks_is_known_by_no_program_there() {
 /// A letter whose last value the target has no variable for is named by its variable, what it holds and what to do.
 #[test]
 fn a_missing_last_value_of_a_letter_says_what_it_is() {
-    let text = "O1\nG21 G90 G17 G54 G94\n#500=7001+[#4130-1]*20\nM30\n";
+    let text = "O1\nG21 G90 G17 G54 G94\nG54.1 P3\n#500=7001+[#4130-1]*20\nM30\n";
     let shop = Shop::with(&[("a.nc", text)]);
     let run = shop.run("convert a.nc --from fanuc --to haas --out out");
     let told = "no variable of Haas is known to hold what #4130 (the P of the last G54.1, an additional work offset) holds";

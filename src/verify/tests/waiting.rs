@@ -37,10 +37,10 @@ fn turns_of_a_wait_are_counted_alike() {
     let source = "N1IF[#1005EQ0]GOTO1\n#100=0\nWHILE[#1005EQ1]DO1\n#100=#100+1\nEND1\n";
     let target = |first: u32, step: u32| {
         format!(
-            "N1IF[#1005EQ0]GOTO1\n#100={first}\nN2IF[#1005NE1]GOTO3\n#1=1\n#100=#100+{step}\nGOTO2\nN3G4P0.\n"
+            "N1IF[#1005EQ0]GOTO1\n#100={first}\nN2IF[#1005NE1]GOTO3\n#1=1\n#100=#100+{step}\nGOTO2\nN3G0X20.\n"
         )
     };
-    let source = format!("{source}G4P0.\n");
+    let source = format!("{source}G0X20.\n");
     assert_eq!(found(&source, &target(0, 1)), Outcome::Same);
     assert_eq!(found(&source, &target(1, 1)), Outcome::Different);
     assert_eq!(found(&source, &target(0, 2)), Outcome::Different);
