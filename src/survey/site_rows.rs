@@ -75,14 +75,14 @@ pub(super) fn key(code: &str) -> String {
     }
 }
 
-/// What a code does, as a key of its line; none where nothing is known.
+/// What a code does, as a key of its line; none if nothing is known.
 pub(super) fn said(text: &str) -> Option<String> {
     let text: String =
         text.chars().filter(|letter| !letter.is_control() && !"\"\\".contains(*letter)).collect();
     (!text.trim().is_empty()).then(|| format!("text = \"{}\"", text.trim()))
 }
 
-/// The words of a code, as a key of its line; none where it has none.
+/// The words of a code, as a key of its line; none if it has none.
 pub(super) fn in_braces(words: &[String]) -> Option<String> {
     (!words.is_empty()).then(|| format!("words = {{ {} }}", words.join(", ")))
 }

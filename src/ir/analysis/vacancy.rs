@@ -7,10 +7,10 @@
 use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve};
 use super::effects::{Seen, Summaries};
 use super::{BitRow, Cfg, Universe, VarSet, modal_bodies};
-use crate::canon::Sys;
+use crate::canon::{Role, Sys};
 use crate::ir::{
-    Bank, Block, BlockId, Call, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind,
-    TermKind, Var,
+    Bank, Block, BlockId, Call, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, Stmt,
+    StmtKind, TermKind, Var,
 };
 use crate::syntax::ProgramName;
 use std::borrow::Cow;
@@ -203,6 +203,32 @@ impl<'p> Vacancy<'p> {
         let mut row = row.clone();
         self.rules.each(id, block, &mut row, &mut |at, row| f(at, &|e| self.rules.yields_vacant(e, row)));
         f(block.stmts.len(), &|e| self.rules.yields_vacant(e, &row));
+    }
+
+    /// The statements with a word that may not be there, as what it holds may be vacant: a sign before it changes nothing
+    /// in that. Of each word that `is_asked` names.
+    pub fn absent(&self, is_asked: &dyn Fn(&Nc, Role) -> bool) -> BTreeSet<(BlockId, usize)> {
+        let unsigned = |value: &Expr| match value {
+            Expr::Negate(inner) => Expr::clone(inner),
+            value => value.clone(),
+        };
+        let mut found = BTreeSet::new();
+        for (id, block) in self.rules.program.ids().zip(&self.rules.program.blocks) {
+            self.forward(id, &mut |at, may| {
+                let Some(nc) = block.stmts.get(at).and_then(|stmt| stmt.kind.nc()) else { return };
+                let absent = nc.items.iter().any(|item| match item {
+                    NcItem::Word(role, value) if is_asked(nc, *role) => {
+                        let value = unsigned(value);
+                        value.may_be_vacant() && may(&value)
+                    }
+                    _ => false,
+                });
+                if absent {
+                    found.insert((id, at));
+                }
+            });
+        }
+        found
     }
 }
 

@@ -12,9 +12,9 @@ mod words;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
+use crate::ir::analysis::Vacancy;
 use crate::ir::analysis::over_calls::{OverCalls, called};
-use crate::ir::analysis::{Summaries, Vacancy};
-use crate::ir::{BlockId, Callee, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{BlockId, Callee, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::{Context, Modal};
@@ -54,7 +54,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut found: Vec<(usize, Span, &'static str)> = Vec::new();
     let summaries = context.summaries(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let vacant = vacant(program, &summaries);
+        // A word that is computed from a vacant variable is not there.
+        let vacant = Vacancy::of(program, &summaries, &BTreeSet::new()).absent(&|_, role| role == Role::X);
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let Some(state) = known.at(index, id) else {
@@ -112,25 +113,6 @@ fn refused(module: &Module, context: &mut Context<'_>) -> bool {
         }
     }
     false
-}
-
-/// The statements whose X may be computed from a vacant variable: then the word is not there.
-fn vacant(program: &Program, summaries: &Summaries) -> BTreeSet<(BlockId, usize)> {
-    let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
-    let mut found = BTreeSet::new();
-    for (id, block) in program.ids().zip(&program.blocks) {
-        vacancy.forward(id, &mut |at, may| {
-            let nc = block.stmts.get(at).and_then(|stmt| stmt.kind.nc());
-            let x = nc.and_then(|nc| nc.word(Role::X)).map(|value| match value {
-                Expr::Negate(inner) => inner,
-                value => value,
-            });
-            if x.is_some_and(|x| x.may_be_vacant() && may(x)) {
-                found.insert((id, at));
-            }
-        });
-    }
-    found
 }
 
 /// True for a block that begins or ends such milling.

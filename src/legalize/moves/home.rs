@@ -9,7 +9,8 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::Vacancy;
-use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, replace_statements};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,40 +62,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     });
 }
 
-/// The returns with a word of an axis that may be vacant, by program.
+/// The returns with a word of an axis that may not be there, by program.
 fn unsure(module: &Module, context: &mut Context<'_>) -> BTreeSet<(usize, Span)> {
-    // A minus before a vacant variable is no word either.
-    let word = |item: &NcItem| match item {
-        NcItem::Word(role, Expr::Negate(value)) if role.is_axis() => Some(Expr::clone(value)),
-        NcItem::Word(role, value) if role.is_axis() => Some(value.clone()),
-        _ => None,
-    };
-    let words = |stmt: &Stmt| match &stmt.kind {
-        StmtKind::Nc(nc) if nc.has(Op::ReferenceReturn) => {
-            nc.items.iter().filter_map(word).filter(Expr::may_be_vacant).collect()
-        }
-        _ => Vec::new(),
-    };
-    let mut found = BTreeSet::new();
-    if module
-        .programs
-        .iter()
-        .flat_map(|program| &program.blocks)
-        .flat_map(|block| &block.stmts)
-        .all(|stmt| words(stmt).is_empty())
-    {
-        return found;
-    }
     let summaries = context.summaries(module);
+    let mut found = BTreeSet::new();
     for (index, program) in module.programs.iter().enumerate() {
-        let vacancy = Vacancy::of(program, &summaries, &BTreeSet::new());
-        for (id, block) in program.ids().zip(&program.blocks) {
-            for (at, stmt) in block.stmts.iter().enumerate() {
-                if words(stmt).iter().any(|value| vacancy.may_yield_vacant(id, at, value)) {
-                    found.insert((index, stmt.site.span));
-                }
-            }
+        if !Features::of_program(program).op(Op::ReferenceReturn) {
+            continue;
         }
+        let vacancy = Vacancy::of(program, &summaries, &BTreeSet::new());
+        let absent = vacancy.absent(&|nc, role| nc.has(Op::ReferenceReturn) && role.is_axis());
+        let stmt = |(id, at): (BlockId, usize)| program.block(id)?.stmts.get(at);
+        found.extend(absent.into_iter().filter_map(stmt).map(|stmt| (index, stmt.site.span)));
     }
     found
 }

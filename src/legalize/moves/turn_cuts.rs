@@ -182,7 +182,8 @@ struct Look<'l> {
 
 impl Look<'_> {
     fn fits(&self, program: &Program, summaries: &Summaries) -> bool {
-        let vacant = vacant(program, summaries);
+        // A word that is computed from a vacant variable is not there.
+        let vacant = Vacancy::of(program, summaries, &BTreeSet::new()).absent(&|_, role| role == Role::Feed);
         program.ids().zip(&program.blocks).all(|(id, block)| {
             // No run comes here.
             let Some(mut fed) = self.known.at(self.index, id).copied() else { return true };
@@ -290,22 +291,6 @@ fn reads_feed(e: &Expr) -> bool {
         }
     });
     reads
-}
-
-/// The statements whose feed may be computed from a vacant variable: then the word is not there.
-fn vacant(program: &Program, summaries: &Summaries) -> BTreeSet<(BlockId, usize)> {
-    let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
-    let mut found = BTreeSet::new();
-    for (id, block) in program.ids().zip(&program.blocks) {
-        vacancy.forward(id, &mut |at, may| {
-            let nc = block.stmts.get(at).and_then(|stmt| stmt.kind.nc());
-            let feed = nc.and_then(|nc| nc.word(Role::Feed));
-            if feed.is_some_and(|feed| feed.may_be_vacant() && may(feed)) {
-                found.insert((id, at));
-            }
-        });
-    }
-    found
 }
 
 /// Puts feed per minute in place of feed per turn; yields the first place where it did.

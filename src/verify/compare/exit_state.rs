@@ -148,7 +148,7 @@ fn state_differs(
             return Some(format!("in {op}, the target in {there}"));
         }
     }
-    // A feed per turn is none where the target has no such mode; a return with one in force is told by the conversion.
+    // A target without feeds per turn has none to compare: the conversion reports a return with one in force.
     let by_turn = ours.feed_by_turn && lacks(target, Op::FeedPerTurn);
     // What a tap by its lead leaves is known only where a feed was in force before.
     if by_turn {
