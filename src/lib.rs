@@ -22,3 +22,7 @@ pub mod survey;
 pub mod syntax;
 pub mod text;
 pub mod verify;
+
+/// True if the compiler checks itself: each pass is held to what it says of itself, and what it leaves to the contract of the
+/// IR. So in builds with debug assertions, and in the one of `.ci/run`, which has none of the standard library's.
+pub(crate) const CHECKED: bool = cfg!(any(debug_assertions, checked));

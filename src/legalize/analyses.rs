@@ -47,9 +47,9 @@ impl Analyses {
     }
 
     fn check(&self, module: &Module) {
-        if cfg!(debug_assertions) {
+        if crate::CHECKED {
             let same = self.of.get_or_init(|| module.clone()) == module;
-            debug_assert!(same, "a pass asks for an analysis of a library that it has changed");
+            assert!(same, "a pass asks for an analysis of a library that it has changed");
         }
     }
 }

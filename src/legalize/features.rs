@@ -1,5 +1,6 @@
 //! What stands in a library, whatever the place: by it a pass sees whether anything concerns it.
 
+use crate::CHECKED;
 use crate::canon::{Op, Role};
 use crate::ir::{
     Bank, BinOp, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var,
@@ -90,7 +91,7 @@ impl Features {
     /// Of one program, of which this is known.
     pub fn of_known(known: Option<Self>, program: &Program) -> Self {
         let features = known.unwrap_or_else(|| Self::of_program(program));
-        debug_assert_eq!(features, Self::of_program(program), "a program has changed uncounted");
+        assert!(!CHECKED || features == Self::of_program(program), "a program has changed uncounted");
         features
     }
 

@@ -7,6 +7,7 @@ use super::names::both_nameless;
 use super::prepare::{Prepared, prepare};
 use super::refused_calls::{self, Link};
 use super::{Input, Lock};
+use crate::CHECKED;
 use crate::diag::{Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::emit::Emitted;
@@ -169,7 +170,7 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
         text.push_str(if framed { "%\n" } else { "" });
         texts.push(any.then_some(text));
     }
-    debug_assert!(home.windows(2).all(|w| w[0] <= w[1]));
+    assert!(!CHECKED || home.windows(2).all(|w| w[0] <= w[1]));
     let (lock, taken, links) = (made.lock, made.taken, made.links);
     Conversion { programs: reports, texts, lock, taken, states_reserved: target.states_reserved(), links }
 }

@@ -1,5 +1,6 @@
 //! Passes, and what runs them.
 
+use crate::CHECKED;
 use crate::ir::analysis::{Summaries, Ways};
 use crate::ir::validate::Invalid;
 use crate::ir::{Module, Program, Var, validate};
@@ -65,13 +66,13 @@ pub trait Pass: Sync {
 /// Runs passes on every program, each with what the library was before the first of them.
 ///
 /// # Errors
-/// In debug builds, the pass that broke the contract of the IR, and its first breach.
+/// Where the compiler checks itself, the pass that broke the contract of the IR, and its first breach.
 pub fn run(module: &mut Module, passes: &[&dyn Pass], level: Level) -> Result<(), (&'static str, Invalid)> {
     if level == Level::O0 {
         return Ok(());
     }
     let library = Library::of(module, passes, level);
-    if cfg!(debug_assertions) {
+    if CHECKED {
         for pass in passes {
             module.programs.iter_mut().for_each(|program| pass.run(program, &library, level));
             validate(module).map_err(|mut all| (pass.name(), all.swap_remove(0)))?;

@@ -17,6 +17,7 @@ pub use pass::{Changes, Pass};
 
 use super::Context;
 use super::features::Features;
+use crate::CHECKED;
 use crate::ir::validate::Invalid;
 use crate::ir::{Module, validate};
 use crate::opt;
@@ -111,17 +112,13 @@ pub fn run_first(count: usize, module: &mut Module, context: &mut Context<'_>) -
         if !(pass.concerns)(&context.features, context) {
             continue;
         }
-        let before = cfg!(debug_assertions).then(|| module.clone());
+        let before = CHECKED.then(|| module.clone());
         let changed = pass.run_on(module, context);
         fresh &= !(changed && pass.brings);
         if let Some(before) = before {
             let found = Changes::between(&before, module);
-            debug_assert!(found <= pass.changes, "'{}' changes {found}", pass.name);
-            debug_assert!(
-                changed || found == Changes::Nothing,
-                "'{}' says that it changed nothing",
-                pass.name
-            );
+            assert!(found <= pass.changes, "'{}' changes {found}", pass.name);
+            assert!(changed || found == Changes::Nothing, "'{}' says that it changed nothing", pass.name);
             if let Err(mut all) = validate(module) {
                 return Err(Broken { pass: pass.name, first: all.swap_remove(0) });
             }
@@ -131,11 +128,11 @@ pub fn run_first(count: usize, module: &mut Module, context: &mut Context<'_>) -
 }
 
 /// True if a program goes on from one pass to the next while it is at hand: a library is larger than any
-/// cache. In debug builds each pass of legalization is looked at by itself.
+/// cache. Where the compiler checks itself, each pass of legalization is looked at by itself.
 fn goes_on(pass: &Pass, next: &Pass) -> bool {
     match (&pass.run, &next.run) {
         (Run::Tidies(_), Run::Tidies(_)) => true,
-        (Run::Each(_), Run::Each(_)) => !cfg!(debug_assertions),
+        (Run::Each(_), Run::Each(_)) => !CHECKED,
         _ => false,
     }
 }

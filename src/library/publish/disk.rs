@@ -89,7 +89,7 @@ enum Takes {
 }
 
 /// Counts a change, and fails where a test asks for it.
-#[cfg(debug_assertions)]
+#[cfg(any(debug_assertions, checked))]
 fn change(takes: Takes) -> io::Result<()> {
     use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
     static DONE: AtomicU64 = AtomicU64::new(0);
@@ -104,7 +104,7 @@ fn change(takes: Takes) -> io::Result<()> {
     }
 }
 
-#[cfg(not(debug_assertions))]
+#[cfg(not(any(debug_assertions, checked)))]
 fn change(_: Takes) -> io::Result<()> {
     Ok(())
 }
