@@ -222,8 +222,15 @@ fn inserted(text: &str, section: &str, lines: &str) -> Result<String, Unfit> {
     }
     // A section that holds only questions says nothing, and stands last but for the codes.
     let end = if text.is_empty() || text.ends_with('\n') { "" } else { "\n" };
-    let first_site = text.find("\n[[").map_or(text.len(), |at| at + 1);
+    let first_site = text.find("\n[[").map_or(text.len(), |at| with_comments(text, at + 1));
     Ok(spliced(text, first_site, &format!("{end}\n{header}\n{lines}")))
+}
+
+/// Where the comments begin that stand right above the line at `at`: they are about it.
+fn with_comments(text: &str, at: usize) -> usize {
+    let before = text.get(..at).unwrap_or_default();
+    let own = before.split_inclusive('\n').rev().take_while(|line| line.starts_with('#') && !is_asked(line));
+    at - own.map(str::len).sum::<usize>()
 }
 
 /// The end of the line that names the dialect: what stands there is in no section.
@@ -325,6 +332,14 @@ mod tests {
             assert_eq!(text.lines().filter(|own| *own == line).count(), 1, "{line}\n{text}");
         }
         assert!(Profile::read(&text).unwrap().site.is_empty());
+    }
+
+    /// A new section does not part a table from the comment above it.
+    #[test]
+    fn comments_stay_with_their_tables() {
+        let own = "# The door of the new cell.\n[[site]]\ncode = \"M38\"\ndo = \"omit\"\n";
+        let text = filled_for(PROGRAM, Some(&format!("dialect = \"fanuc\"\n\n{own}")));
+        assert!(text.contains(&format!("\n{own}")) && text.contains("\n[codes]\n"), "{text}");
     }
 
     #[test]

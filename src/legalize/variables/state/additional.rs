@@ -2,19 +2,20 @@
 //!
 //! Law: if no program of the library selects one, none is in force but by other programs or by hand. What is read of its number,
 //! where the target does not tell that, is then an alarm in the place of the block that reads it, so that no run goes on with
-//! another number. Side condition: the block only sets a variable. Counter-example: a program that selects one itself, as each
-//! run would come to the alarm.
+//! another number. Side conditions: the block only sets a variable, and a run can pass it by. Counter-example: a program that
+//! selects one itself, as each run would come to the alarm.
 
 use super::findings::Finding;
 use super::{held, own};
 use crate::canon::{Op, Role, Sys};
 use crate::dialect::{CodeHead, Control};
 use crate::ir::analysis::{Assigned, LAST_P};
-use crate::ir::{Expr, Module, Nc, NcItem, Place, Program, StmtKind};
+use crate::ir::{Expr, Module, Nc, NcItem, Place, Program, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::codes::by_number::numbers;
 use crate::text::Span;
 use std::cell::LazyCell;
+use std::collections::BTreeSet;
 
 /// G54 to G59.
 const STANDARD_OFFSETS: f64 = 6.0;
@@ -65,6 +66,21 @@ fn computes_one(program: &Program, module: &Module, context: &Context<'_>) -> bo
     false
 }
 
+/// The blocks that each run begins with, before its first branch.
+fn of_each_run(program: &Program) -> BTreeSet<usize> {
+    let (mut passed, mut at) = (BTreeSet::new(), 0);
+    while let Some(block) = program.blocks.get(at) {
+        if !passed.insert(at) {
+            break;
+        }
+        match &block.term.kind {
+            TermKind::Jump(next) | TermKind::Call { next, .. } => at = next.index(),
+            _ => break,
+        }
+    }
+    passed
+}
+
 /// Puts an alarm in the place of each assignment that reads the number of an additional work offset, if the target does not
 /// tell it.
 pub(super) fn stop_reads(
@@ -77,7 +93,9 @@ pub(super) fn stop_reads(
     if held(Sys::Address, &number, target).is_some() {
         return;
     }
-    for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+    let always = of_each_run(program);
+    let blocks = program.blocks.iter_mut().enumerate().filter(|(at, _)| !always.contains(at));
+    for stmt in blocks.flat_map(|(_, block)| &mut block.stmts) {
         let StmtKind::Assign { target: Place::Var(_), value } = &stmt.kind else { continue };
         let mut reads = false;
         value.walk(&mut |e| {
