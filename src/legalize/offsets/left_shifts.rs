@@ -14,7 +14,8 @@ use crate::legalize::Context;
 use crate::legalize::features::Features;
 
 const CLEARS: Question = Question::EndClearsLocal;
-const AXES: [Role; 6] = [Role::X, Role::Y, Role::Z, Role::A, Role::B, Role::C];
+/// The axes that a local shift has words for.
+pub(super) const AXES: [Role; 6] = [Role::X, Role::Y, Role::Z, Role::A, Role::B, Role::C];
 
 /// True if the library shifts so, between two mills of which one table at least says what an end does.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -90,6 +91,11 @@ impl Follow for Shifts {
     fn lose(&self, _: &mut Shifted) {}
 }
 
+/// True for the value of no shift.
+pub(super) fn is_none(value: &Expr) -> bool {
+    matches!(value, Expr::Increments(0.0)) || value.constant() == Some(0.0)
+}
+
 /// Takes the shift of a statement.
 fn step(stmt: &Stmt, axes: &mut [bool; 6]) {
     let Some(nc) = stmt.kind.nc() else { return };
@@ -101,7 +107,6 @@ fn step(stmt: &Stmt, axes: &mut [bool; 6]) {
     }
     for (role, on) in AXES.into_iter().zip(axes) {
         let Some(value) = nc.word(role) else { continue };
-        let is_none = matches!(value, Expr::Increments(0.0)) || value.constant() == Some(0.0);
-        *on = if is_none { *on && stmt.site.skip.is_some() } else { true };
+        *on = if is_none(value) { *on && stmt.site.skip.is_some() } else { true };
     }
 }

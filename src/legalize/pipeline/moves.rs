@@ -16,7 +16,7 @@ use crate::legalize::moves::{
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
-    named_lengths, radius_words, set_position, table_writes, tool_lengths, written_tools,
+    named_lengths, no_shifts, radius_words, set_position, table_writes, tool_lengths, written_tools,
 };
 
 /// Before the tool lengths are asked about.
@@ -62,6 +62,8 @@ pub(super) const MOVES: &[Pass] = &[
     .when(|c, _| inverse_feeds::concerns(c)),
     Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
         .when(set_position::concerns),
+    Pass::edits("no-shifts", "local shifts of 0 need nothing where the target has none", no_shifts::run)
+        .when(no_shifts::concerns),
     Pass::edits("external", "shifts that share a register on one control are kept apart", external::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
     Pass::edits(
