@@ -23,6 +23,6 @@ pub mod syntax;
 pub mod text;
 pub mod verify;
 
-/// True if the compiler checks itself: each pass is held to what it says of itself, and what it leaves to the contract of the
-/// IR. So in builds with debug assertions, and in the one of `.ci/run`, which has none of the standard library's.
+/// True in a checked build, where the compiler checks itself: each pass is held to what it says of itself, and what it leaves to
+/// the contract of the IR. Debug builds are checked, and so is that of `.ci/run`, which has no debug assertions.
 pub(crate) const CHECKED: bool = cfg!(any(debug_assertions, checked));

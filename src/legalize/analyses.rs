@@ -12,7 +12,7 @@ pub(super) struct Analyses {
     facts: Mutex<Vec<(Modal, Arc<ModalFacts>)>>,
     summaries: OnceLock<Arc<Summaries>>,
     called: OnceLock<Arc<CalledPrograms>>,
-    /// The library that they are of: debug builds hold every question against it.
+    /// The library that they are of: checked builds hold every question against it.
     of: OnceLock<Module>,
 }
 

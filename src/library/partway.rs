@@ -26,7 +26,7 @@ pub struct Partway {
 /// Takes a library through the first so many passes of [`crate::legalize::pipeline::GROUPS`], without a lock.
 ///
 /// # Errors
-/// In debug builds, the pass that broke the contract of the IR.
+/// In checked builds, the pass that broke the contract of the IR.
 pub fn partway(
     inputs: &[Input],
     source: &Control,

@@ -66,7 +66,7 @@ pub trait Pass: Sync {
 /// Runs passes on every program, each with what the library was before the first of them.
 ///
 /// # Errors
-/// Where the compiler checks itself, the pass that broke the contract of the IR, and its first breach.
+/// In checked builds, the pass that broke the contract of the IR, and its first breach.
 pub fn run(module: &mut Module, passes: &[&dyn Pass], level: Level) -> Result<(), (&'static str, Invalid)> {
     if level == Level::O0 {
         return Ok(());

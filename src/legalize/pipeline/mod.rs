@@ -1,7 +1,7 @@
 //! The way from what lowering yields to what an emitter takes: one list of passes, and what runs them.
 //!
 //! [`GROUPS`] is the whole of it, in order; `macroglot ir --passes` prints it, and `macroglot ir FILE --to D --after PASS`
-//! what the library is after any of them. In debug builds the IR is validated after every pass, and each pass
+//! what the library is after any of them. In checked builds the IR is validated after every pass, and each pass
 //! is held to what it says that it changes.
 
 mod cycles;
@@ -85,7 +85,7 @@ pub fn through(name: &str) -> Result<usize, NoPass> {
 /// Takes a library through all passes.
 ///
 /// # Errors
-/// In debug builds, if a pass breaks the contract of the IR.
+/// In checked builds, if a pass breaks the contract of the IR.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> Result<(), Broken> {
     run_first(usize::MAX, module, context)
 }
@@ -128,7 +128,7 @@ pub fn run_first(count: usize, module: &mut Module, context: &mut Context<'_>) -
 }
 
 /// True if a program goes on from one pass to the next while it is at hand: a library is larger than any
-/// cache. Where the compiler checks itself, each pass of legalization is looked at by itself.
+/// cache. In checked builds each pass of legalization is looked at by itself.
 fn goes_on(pass: &Pass, next: &Pass) -> bool {
     match (&pass.run, &next.run) {
         (Run::Tidies(_), Run::Tidies(_)) => true,

@@ -1,6 +1,6 @@
 //! Every change that a run makes to a disk goes through here.
 //!
-//! So tests can stop a run at each of them, or let the disk be full from there on: debug builds read `MACROGLOT_FAULT`,
+//! So tests can stop a run at each of them, or let the disk be full from there on: checked builds read `MACROGLOT_FAULT`,
 //! `kill:N` or `full:N`, and count. Release builds have nothing of that. A full disk still removes.
 
 use std::fs::{self, File};
