@@ -1,8 +1,8 @@
 //! Local shifts of 0, on a target that has none.
 //!
-//! Law: where the target has no local shift, none is ever in force there, so a block that sets the source's to 0 needs nothing. Side
-//! conditions: the block does nothing else, and no cutter compensation is in force, which such a block ends for a while on some
-//! controls. Counter-example: `G52 X10.`, which stays, and is refused.
+//! Law: where the target has no local shift, none is ever in force there, so a block that sets the source's to 0 can go. Side
+//! conditions: the block does nothing else, and no cutter compensation is in force, as some controls suspend it at such a block.
+//! Counter-example: `G52 X10.`, which stays, and is refused.
 
 use super::left_shifts::{AXES, is_none};
 use crate::canon::{Group, Op};
