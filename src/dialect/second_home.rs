@@ -1,10 +1,11 @@
-//! Settings of lathes that more than one module asks: the place of the second reference position of other lathes, and the letters of increments.
+//! Settings that more than one module asks: the place of the second reference position of other machines, and the letters of increments.
 
 use super::{Control, Question, Setting, Units};
 use crate::canon::{Act, Op, Role};
 
-/// The settings that give it along X and Z, in machine coordinates and the unit of the control.
-pub const SECOND_HOME: [&str; 2] = ["setting.second_home_x", "setting.second_home_z"];
+/// The settings that give it along X, Y and Z, in machine coordinates and the unit of the control.
+pub const SECOND_HOME: [&str; 3] =
+    ["setting.second_home_x", "setting.second_home_y", "setting.second_home_z"];
 
 /// The setting that says whether U, V, W and H are increments in G code systems that have modes for them.
 pub const STEP_LETTERS: &str = "setting.step_letters";
@@ -35,8 +36,8 @@ impl Control {
         rows.find(|row| row.sets.values().any(|sets| sets.contains_key(key)))
     }
 
-    /// The place along X and Z as far as the profile gives it: millimetres of machine coordinates, X a diameter.
-    pub fn second_home(&self) -> [Option<f64>; 2] {
+    /// The place along X, Y and Z as far as the profile gives it: millimetres of machine coordinates, X of a lathe a diameter.
+    pub fn second_home(&self) -> [Option<f64>; 3] {
         let unit = if self.units() == Some(Units::Inch) { 25.4 } else { 1.0 };
         SECOND_HOME.map(|name| {
             let stated = self.setting(name)?.parse::<f64>().ok();

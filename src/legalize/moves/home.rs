@@ -26,13 +26,13 @@ const ZERO: &str =
 const UNKNOWN: &str = "a return to the reference position where it is not known whether G90 or G91 is in force: write one before it";
 const MOTION: &str = "which interpolation is in force before this return is not known: the target is in rapid traverse after it";
 
-const VACANT: &str = "this return leaves out an axis whose value is vacant, and the target's move would take it along: write a return for \
+pub(super) const VACANT: &str = "this return leaves out an axis whose value is vacant, and the target's move would take it along: write a return for \
                       each case, after an IF";
 
 /// Writes returns as moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    let unsure = unsure(module, context);
+    let unsure = unsure(module, context, Op::ReferenceReturn);
     replace_statements(module, &facts, |index, state, stmt, out| {
         let before = state.clone();
         state.step(&stmt);
@@ -62,16 +62,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     });
 }
 
-/// The returns with a word of an axis that may not be there, by program.
-fn unsure(module: &Module, context: &mut Context<'_>) -> BTreeSet<(usize, Span)> {
+/// The returns by this code with a word of an axis that may not be there, by program.
+pub(super) fn unsure(module: &Module, context: &mut Context<'_>, code: Op) -> BTreeSet<(usize, Span)> {
     let summaries = context.summaries(module);
     let mut found = BTreeSet::new();
     for (index, program) in module.programs.iter().enumerate() {
-        if !Features::of_program(program).op(Op::ReferenceReturn) {
+        if !Features::of_program(program).op(code) {
             continue;
         }
         let vacancy = Vacancy::of(program, &summaries, &BTreeSet::new());
-        let absent = vacancy.absent(&|nc, role| nc.has(Op::ReferenceReturn) && role.is_axis());
+        let absent = vacancy.absent(&|nc, role| nc.has(code) && role.is_axis());
         let stmt = |(id, at): (BlockId, usize)| program.block(id)?.stmts.get(at);
         found.extend(absent.into_iter().filter_map(stmt).map(|stmt| (index, stmt.site.span)));
     }

@@ -28,15 +28,28 @@ const Z: f64 = 3.0;
 /// A question that the length in force hangs on, and the ways here that ask it.
 struct Asked {
     question: Question,
+    /// What it hangs on there on the target, where a return may be written as a move in machine coordinates.
+    there: &'static [Question],
     /// The axis of the length moved.
     along: bool,
     ways: Ways,
 }
 
 impl Asked {
-    /// Whether a control cancels the length there; none if no source says.
-    fn cancels(&self, control: &Control) -> Option<bool> {
-        match control.behaviour(self.question)?.value.as_str() {
+    /// Whether the source cancels the length there; none if no source says.
+    fn cancels_here(&self, source: &Control) -> Option<bool> {
+        self.answer(self.question, source)
+    }
+
+    /// Whether the target does; none if no source says, or it hangs on what is written.
+    fn cancels_there(&self, target: &Control) -> Option<bool> {
+        let mut answers = self.there.iter().map(|question| self.answer(*question, target));
+        let first = answers.next()?;
+        first.filter(|_| answers.all(|other| other == first))
+    }
+
+    fn answer(&self, question: Question, control: &Control) -> Option<bool> {
+        match control.behaviour(question)?.value.as_str() {
             "kept" => Some(false),
             "cancelled" => Some(true),
             "cancelled.along" => Some(self.along),
@@ -44,8 +57,21 @@ impl Asked {
         }
     }
 
-    fn is_sure(&self, control: &Control) -> bool {
-        control.behaviour(self.question).is_some_and(|row| row.origin.is_settled())
+    fn is_sure(&self, target: &Control) -> bool {
+        let is_settled =
+            |question: &Question| target.behaviour(*question).is_some_and(|row| row.origin.is_settled());
+        self.there.iter().all(is_settled)
+    }
+}
+
+/// What the length hangs on after a return on the target: one to the second reference position becomes a move in machine
+/// coordinates where it has no code for it.
+fn after_return(features: &Features, target: &Control) -> &'static [Question] {
+    let moves = features.op(Op::Reference2) && target.code_for(Op::Reference2, &BTreeMap::new()).is_none();
+    match (moves, features.op(Op::ReferenceReturn)) {
+        (false, _) => &[RETURN],
+        (true, false) => &[MOVE],
+        (true, true) => &[RETURN, MOVE],
     }
 }
 
@@ -57,21 +83,22 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let facts = context.modal_facts(module);
     let absent = absent(module);
-    let drills = Features::of(&module.programs).any_op(Op::is_cycle);
+    let features = Features::of(&module.programs);
+    let (drills, returns) = (features.any_op(Op::is_cycle), after_return(&features, context.target));
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (id, block) in program.ids().zip(&mut program.blocks) {
             let mut state = facts.at(index, id);
             for (at, stmt) in block.stmts.iter_mut().enumerate() {
-                if !questions(&state).is_empty() {
+                if is_lost(&state) {
                     let absent = absent.get(&(index, id, at)).map_or(&[][..], Vec::as_slice);
-                    settle(stmt, &Place { state: &state, absent, drills }, index, context);
+                    settle(stmt, &Place { state: &state, absent, drills, returns }, index, context);
                 }
                 state.step(stmt);
             }
             let mut reads = false;
             block.term.kind.exprs(&mut |e| reads |= reads_depth(e));
-            if reads && !questions(&state).is_empty() {
-                told(&state, index, block.term.site.span, context);
+            if reads && is_lost(&state) {
+                told(&questions(&state, returns), index, block.term.site.span, context);
             }
         }
     }
@@ -124,19 +151,26 @@ struct Place<'p> {
     absent: &'p [Role],
     /// True if some program of the library drills by cycles.
     drills: bool,
+    /// What the length hangs on after a return on the target.
+    returns: &'static [Question],
+}
+
+/// True where something may have cancelled the length.
+fn is_lost(state: &Modal) -> bool {
+    !questions(state, &[RETURN]).is_empty()
 }
 
 /// The questions that the length in force hangs on.
-fn questions(state: &Modal) -> Vec<Asked> {
+fn questions(state: &Modal, returns: &'static [Question]) -> Vec<Asked> {
     let lost = state.length_lost;
+    let asked = |question, there: &'static [Question], along, ways| Asked { question, there, along, ways };
     let all = [
-        (RETURN, true, lost.by_reference),
-        (RETURN, false, lost.by_other_axes),
-        (MOVE, true, lost.by_machine_move),
-        (CHANGE, true, lost.by_change),
+        asked(RETURN, returns, true, lost.by_reference),
+        asked(RETURN, returns, false, lost.by_other_axes),
+        asked(MOVE, &[MOVE], true, lost.by_machine_move),
+        asked(CHANGE, &[CHANGE], true, lost.by_change),
     ];
-    let all = all.into_iter().map(|(question, along, ways)| Asked { question, along, ways });
-    all.filter(|asked| asked.ways != Ways::None).collect()
+    all.into_iter().filter(|asked| asked.ways != Ways::None).collect()
 }
 
 /// A statement that may be the first to count with the length.
@@ -144,21 +178,21 @@ fn settle(stmt: &mut Stmt, place: &Place<'_>, index: usize, context: &mut Contex
     let (state, span) = (place.state, stmt.site.span);
     let mut reads = false;
     stmt.kind.exprs(&mut |e| reads |= reads_depth(e));
+    let questions = questions(state, place.returns);
     if reads {
-        return told(state, index, span, context);
+        return told(&questions, index, span, context);
     }
     let StmtKind::Nc(nc) = &mut stmt.kind else { return };
     match places(nc, place) {
         Ways::None => return,
-        Ways::Some => return told(state, index, span, context),
+        Ways::Some => return told(&questions, index, span, context),
         Ways::Every => {}
     }
-    let questions = questions(state);
     rests(&questions, Side::Source, index, span, context);
     let (source, target) = (context.source, context.target);
     let same = |asked: &Asked| {
-        let ours = asked.cancels(source);
-        ours.is_some() && ours == asked.cancels(target) && asked.is_sure(target)
+        let ours = asked.cancels_here(source);
+        ours.is_some() && ours == asked.cancels_there(target) && asked.is_sure(target)
     };
     if questions.iter().all(same) {
         // A common fact has its note.
@@ -166,7 +200,7 @@ fn settle(stmt: &mut Stmt, place: &Place<'_>, index: usize, context: &mut Contex
         return;
     }
     // Where no source says, emulated controls keep it.
-    let cancels = |asked: &&Asked| asked.cancels(source) == Some(true);
+    let cancels = |asked: &&Asked| asked.cancels_here(source) == Some(true);
     let named = match state.of(Group::LengthComp) {
         Setting::Known(op @ (Op::LengthPlus | Op::LengthMinus), Some(row)) => Some((op, row)),
         _ => None,
@@ -182,7 +216,7 @@ fn settle(stmt: &mut Stmt, place: &Place<'_>, index: usize, context: &mut Contex
             nc.items.insert(0, NcItem::Op(op));
             nc.items.push(NcItem::Word(Role::LengthOffset, Expr::Number(f64::from(row))));
         }
-        _ => told(state, index, span, context),
+        _ => told(&questions, index, span, context),
     }
 }
 
@@ -239,12 +273,16 @@ fn reads_depth(e: &Expr) -> bool {
 }
 
 /// Tells what the length in force rests on, where nothing can be put in.
-fn told(state: &Modal, index: usize, span: Span, context: &mut Context<'_>) {
-    let questions = questions(state);
-    rests(&questions, Side::Source, index, span, context);
-    rests(&questions, Side::Target, index, span, context);
-    let cancels = |asked: &Asked, control: &Control| asked.cancels(control).unwrap_or(false);
-    if questions.iter().any(|asked| cancels(asked, context.source) != cancels(asked, context.target)) {
+fn told(questions: &[Asked], index: usize, span: Span, context: &mut Context<'_>) {
+    rests(questions, Side::Source, index, span, context);
+    rests(questions, Side::Target, index, span, context);
+    // Where no source says, emulated controls keep it.
+    let here = |asked: &Asked| asked.cancels_here(context.source).unwrap_or(false);
+    let differs = |asked: &Asked| {
+        let mut answers = asked.there.iter().map(|question| asked.answer(*question, context.target));
+        answers.any(|answer| answer.unwrap_or(false) != here(asked))
+    };
+    if questions.iter().any(differs) {
         let changed = questions.iter().any(|asked| asked.question == CHANGE);
         let what = match changed {
             true => {
@@ -265,7 +303,9 @@ fn rests(questions: &[Asked], side: Side, index: usize, span: Span, context: &mu
     for asked in questions {
         match side {
             Side::Source => context.rests_on_source(index, span, asked.question),
-            Side::Target => context.rests_on_target(index, span, asked.question),
+            Side::Target => {
+                asked.there.iter().for_each(|question| context.rests_on_target(index, span, *question));
+            }
         }
     }
 }

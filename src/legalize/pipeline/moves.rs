@@ -206,7 +206,7 @@ pub(super) const MOVES: &[Pass] = &[
         second_home::run,
     )
     .when(|c, context| c.op(Op::Reference2) && second_home::concerns(context.target))
-    .needs(&["reference"]),
+    .needs(&["reference", "kept-length"]),
     Pass::rewrites(
         "machine-moves",
         "moves in machine coordinates cancel the zero shifts, and select them again",

@@ -152,7 +152,7 @@ impl Proposals {
         }
         scenario.sets_named = self.inputs.sets_named;
         // What stands for the second reference position of the source is that position.
-        for (axis, place) in [0, 2].into_iter().zip(self.inputs.second_home) {
+        for (axis, place) in self.inputs.second_home.into_iter().enumerate() {
             scenario.references[1][axis] = place.unwrap_or(scenario.references[1][axis]);
         }
         self.tables(&mut scenario, count);

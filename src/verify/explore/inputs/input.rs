@@ -25,8 +25,8 @@ pub struct Inputs {
     /// True where the sign of an absolute angle is the way of its axis: then the way hangs on where the axis stands, and
     /// conversions hold for one that stands at 0.
     pub turns_by_sign: bool,
-    /// Where the target's profile says that the second reference position is, along X and Z: millimetres, X a diameter.
-    pub second_home: [Option<f64>; 2],
+    /// Where the target's profile says that the second reference position is, along X, Y and Z: millimetres, X of a lathe a diameter.
+    pub second_home: [Option<f64>; 3],
     /// True where tools are not worn: a round pocket takes a tool's radius off by itself, and the target keeps no wear apart, so
     /// that the shop's table there holds both in one number.
     pub unworn: bool,

@@ -291,7 +291,7 @@ impl<'c> Reader<'c> {
             sets_named: false,
             rotary: [false; 3],
             turns_by_sign: false,
-            second_home: [None; 2],
+            second_home: [None; 3],
             unworn: self.pockets,
             many_tools: false,
             inch: self.inch,
