@@ -1,5 +1,7 @@
 //! What every pass is given: both controls, and a place for what it finds.
 
+mod findings;
+
 use super::Modal;
 use super::analyses::Analyses;
 use super::by_program::look_at_each;
@@ -17,8 +19,9 @@ use crate::legalize::registers::map::Registers;
 use crate::legalize::variables::computed_numbers::Reached;
 use crate::opt::Level;
 use crate::text::Span;
+use findings::Findings;
 use foldhash::{HashMap, HashSet};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
 /// The controls of a conversion and the findings so far.
@@ -65,6 +68,8 @@ pub struct Context<'a> {
     pub(super) m_codes: OnceLock<BTreeSet<Op>>,
     /// The operations that the target has codes for.
     pub(super) had: OnceLock<BTreeSet<Op>>,
+    /// By program of the source and block: what its computed G codes may be, if that is known; from the pass `codes` on.
+    pub computed_codes: BTreeMap<(usize, Span), Option<Vec<f64>>>,
     /// The programs of the source in which every read waits until the moves before it are done.
     pub waiting: BTreeSet<usize>,
     findings: Findings,
@@ -85,79 +90,6 @@ pub struct Copied {
     pub span: Span,
     /// What the copied program is called on the source.
     pub name: String,
-}
-
-#[derive(Debug, Default)]
-struct Findings {
-    /// With the program of each, in the order they were found. A list never grows: grown ones take twice the room.
-    lists: Vec<Vec<(u32, Diagnostic)>>,
-    /// By program, the numbers of what was said once, in their order.
-    said: Vec<Vec<u32>>,
-    /// The number of each fact that something is said of once.
-    facts: HashMap<Box<str>, u32>,
-    /// Texts that were said before: a library has few, many times over.
-    texts: HashSet<Arc<str>>,
-}
-
-/// Findings of the longest lists.
-const LIST: usize = 1024;
-
-impl Findings {
-    /// None yet, of so many programs.
-    fn of(programs: usize) -> Self {
-        Self { said: vec![Vec::new(); programs], ..Self::default() }
-    }
-
-    fn add(&mut self, origin: usize, mut diagnostic: Diagnostic) {
-        for text in [Some(&mut diagnostic.message), diagnostic.help.as_mut()].into_iter().flatten() {
-            match self.texts.get(text) {
-                Some(same) => *text = Arc::clone(same),
-                None => drop(self.texts.insert(Arc::clone(text))),
-            }
-        }
-        self.push(origin, diagnostic);
-    }
-
-    fn push(&mut self, origin: usize, diagnostic: Diagnostic) {
-        if origin >= self.said.len() {
-            return;
-        }
-        let next = (16 << self.lists.len().min(6)).min(LIST);
-        match self.lists.last_mut().filter(|list| list.len() < list.capacity()) {
-            Some(list) => list.push((origin as u32, diagnostic)),
-            None => {
-                let mut list = Vec::with_capacity(next);
-                list.push((origin as u32, diagnostic));
-                self.lists.push(list);
-            }
-        }
-    }
-
-    /// By program.
-    fn into_all(self) -> Vec<Vec<Diagnostic>> {
-        let mut counts = vec![0; self.said.len()];
-        self.lists.iter().flatten().for_each(|(origin, _)| counts[*origin as usize] += 1);
-        let mut all: Vec<Vec<Diagnostic>> = counts.into_iter().map(Vec::with_capacity).collect();
-        for (origin, finding) in self.lists.into_iter().flatten() {
-            all[origin as usize].push(finding);
-        }
-        all
-    }
-
-    /// True the first time for a program and a fact.
-    fn say(&mut self, origin: usize, fact: &str) -> bool {
-        let next = self.facts.len() as u32;
-        let number = match self.facts.get(fact) {
-            Some(number) => *number,
-            None => *self.facts.entry(fact.into()).or_insert(next),
-        };
-        let Some(said) = self.said.get_mut(origin) else { return false };
-        let place = said.binary_search(&number);
-        place.is_err_and(|place| {
-            said.insert(place, number);
-            true
-        })
-    }
 }
 
 impl<'a> Context<'a> {
@@ -187,6 +119,7 @@ impl<'a> Context<'a> {
             numbers: ProgramNumbers::default(),
             m_codes: OnceLock::new(),
             had: OnceLock::new(),
+            computed_codes: BTreeMap::new(),
             waiting: BTreeSet::new(),
             findings,
             rested,
@@ -281,36 +214,38 @@ impl<'a> Context<'a> {
         self.analyses.called(module)
     }
 
+    /// The program of the source that one of the module was made of.
+    pub fn origin(&self, program: usize) -> usize {
+        self.origins.get(program).copied().unwrap_or(program)
+    }
+
     /// Adds a finding to a program.
     pub fn add(&mut self, program: usize, diagnostic: Diagnostic) {
-        let origin = self.origins.get(program).copied().unwrap_or(program);
-        self.findings.add(origin, diagnostic);
+        self.findings.add(self.origin(program), diagnostic);
     }
 
     /// True where lowering found an error within a place: what the module lacks there the source may have.
     pub fn is_faulty(&self, program: usize, span: Span) -> bool {
-        let origin = self.origins.get(program).copied().unwrap_or(program);
-        let faults = self.faults.get(origin).map_or(&[][..], Vec::as_slice);
+        let faults = self.faults.get(self.origin(program)).map_or(&[][..], Vec::as_slice);
         faults.iter().any(|fault| span.start <= fault.start && fault.end <= span.end)
     }
 
     /// True where a place is refused already.
     pub fn is_refused(&self, program: usize, span: Span) -> bool {
-        let origin = self.origins.get(program).copied().unwrap_or(program) as u32;
+        let origin = self.origin(program) as u32;
         let mut findings = self.findings.lists.iter().flatten();
         findings.any(|(at, found)| *at == origin && found.code == Code::NoEquivalent && found.span == span)
     }
 
     /// Adds findings whose texts are shared already.
     pub fn add_all(&mut self, program: usize, diagnostics: Vec<Diagnostic>) {
-        let origin = self.origins.get(program).copied().unwrap_or(program);
+        let origin = self.origin(program);
         diagnostics.into_iter().for_each(|diagnostic| self.findings.push(origin, diagnostic));
     }
 
     /// Adds a finding unless the program has one about the same `fact`: what a reviewer must check once is said once.
     pub fn add_once(&mut self, program: usize, fact: &str, diagnostic: Diagnostic) {
-        let origin = self.origins.get(program).copied().unwrap_or(program);
-        if self.findings.say(origin, fact) {
+        if self.findings.say(self.origin(program), fact) {
             self.add(program, diagnostic);
         }
     }
@@ -359,8 +294,7 @@ impl<'a> Context<'a> {
     }
 
     fn rests_on(&mut self, control: &Control, side: Side, program: usize, span: Span, question: Question) {
-        let origin = self.origins.get(program).copied().unwrap_or(program);
-        if !self.rested.insert((origin, side, question)) {
+        if !self.rested.insert((self.origin(program), side, question)) {
             return;
         }
         let row = control.behaviour(question);

@@ -116,3 +116,48 @@ fn a_missing_last_value_of_a_letter_says_what_it_is() {
         run.out
     );
 }
+
+/// `#1=#4001` and `G#1` at the end of a macro: between them it writes an offset or a shift by a computed number, or stops with an
+/// alarm. Groups 1 and 3 have the same codes on a Fanuc and a Haas.
+#[test]
+fn a_saved_code_is_put_back_without_a_question() {
+    let asked = |between: &str| {
+        let program = format!(
+            "O1\n{HEAD}\nG65 P2 D5. E1.\nM30\nO2\n#1=#4001\n#2=#4003\nG91 G0 Z5.\n{between}\nG#1 G#2\nM99\n"
+        );
+        let said = convert("--from fanuc --to haas", &program, ("", ""));
+        assert!(!said.contains("REFUSED"), "{between}: {said}");
+        said.contains("the number of the G code is computed")
+    };
+    let counted = "#4=0\nWHILE[#4LE5]DO1\n#[5221+#4*20]=1.5\n#4=#4+1\nEND1";
+    // Its run is told: must stay in #500 to #699.
+    let row = "#[500+#7]=2.";
+    let alarm = "IF[#8EQ1]GOTO50\nGOTO8\nN50#1=41\n#3000=45(LOW)\nN8G4X1.";
+    for between in ["", counted, row, alarm] {
+        assert!(!asked(between), "{between}");
+    }
+    let any = "#[#7]=2.";
+    let skipped = "IF[#8EQ1]GOTO50\nGOTO8\nN50#1=#7\n/#3000=45(LOW)\nN8G4X1.";
+    let none = "IF[#8EQ1]GOTO50\nGOTO8\nN50#1=#7\n#3000=0(LOW)\nN8G4X1.";
+    let local = "#[#4+1]=2.";
+    for between in [any, skipped, none, local] {
+        assert!(asked(between), "{between}");
+    }
+}
+
+/// A Haas takes no limit on reading ahead under cutter compensation. A code that a macro saved and puts back begins none, so a read
+/// of an input waits there, and whether the source waits too is one question for the library.
+#[test]
+fn a_saved_code_begins_no_compensation() {
+    let is_once = |group: &str| {
+        let program = format!(
+            "O1\n{HEAD}\nG65 P2 D5.\nM30\nO2\n#1=#{group}\n#[500+#7]=2.\nG4X1.\nIF[#1005EQ1]GOTO8\nG91 G0 Z5.\nN8G#1\nM99\n"
+        );
+        let said = convert("--from fanuc --to haas", &program, ("", ""));
+        let (asked, once) = said.split_once("What is decided once").expect("both are said");
+        assert!(asked.contains("review MG0314") || once.contains("review MG0314"), "{group}: {said}");
+        once.contains("review MG0314")
+    };
+    assert!(is_once("4001"));
+    assert!(!is_once("4007"));
+}

@@ -1,7 +1,7 @@
 //! Where the text of a program ends without a code that ends it.
 
 use super::Cfg;
-use crate::ir::{BlockId, Program, StmtKind, TermKind};
+use crate::ir::{BlockId, Program, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
@@ -13,15 +13,20 @@ pub fn text_ends<'p>(program: &'p Program, cfg: &'p Cfg) -> impl Iterator<Item =
         program.block(*id).is_some_and(|block| {
             // What only jumps lead to and nothing stands in is a label that is missing.
             let there = !block.stmts.is_empty() || id.index() == 0 || falls.contains(id);
-            // One that the operator may skip ends nothing.
-            let stops =
-                block.stmts.iter().filter(|stmt| stmt.site.skip.is_none()).any(|stmt| match &stmt.kind {
-                    StmtKind::Alarm { number, .. } => number.constant().is_some_and(|number| number >= 1.0),
-                    _ => false,
-                });
+            let stops = block.stmts.iter().any(is_final);
             there && !stops && matches!(block.term.kind, TermKind::Stray)
         })
     })
+}
+
+/// True for an alarm of the program, after which nothing goes on: one that the operator may skip, or of number 0, ends nothing.
+pub fn is_final(stmt: &Stmt) -> bool {
+    match &stmt.kind {
+        StmtKind::Alarm { number, .. } => {
+            stmt.site.skip.is_none() && number.constant().is_some_and(|number| number >= 1.0)
+        }
+        _ => false,
+    }
 }
 
 /// The last place of a program.

@@ -4,8 +4,9 @@ use super::Cfg;
 use super::cfg::{entries, labelled};
 use super::dataflow::reached;
 use super::effects::Summaries;
+use super::text_ends::is_final;
 use crate::canon::Sys;
-use crate::ir::{BlockId, Callee, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
+use crate::ir::{Bank, BlockId, Callee, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
@@ -41,10 +42,14 @@ pub fn values_at(
 /// A variable before a statement of a block.
 type Asked = (BlockId, usize, Var);
 
+/// True where a write by this computed number, at a statement of a block, surely leaves the variable alone.
+pub type Misses<'s> = dyn Fn((BlockId, usize), Bank, &Expr, Var) -> bool + 's;
+
 /// What is assigned in a program.
 pub struct Assigned<'s> {
     program: &'s Program,
     summaries: &'s Summaries,
+    misses: Option<&'s Misses<'s>>,
     cfg: OnceCell<Cfg>,
     /// Where control comes in from what the graph does not show, anything may be held.
     open: OnceCell<BTreeSet<BlockId>>,
@@ -53,7 +58,13 @@ pub struct Assigned<'s> {
 impl<'s> Assigned<'s> {
     /// Of a program of the library that `summaries` are of.
     pub fn new(program: &'s Program, summaries: &'s Summaries) -> Self {
-        Self { program, summaries, cfg: OnceCell::new(), open: OnceCell::new() }
+        Self { program, summaries, misses: None, cfg: OnceCell::new(), open: OnceCell::new() }
+    }
+
+    /// The same, where more is known of computed numbers: without, each may be that of any variable.
+    pub fn with(mut self, misses: &'s Misses<'s>) -> Self {
+        self.misses = Some(misses);
+        self
     }
 
     /// All that `var` may hold before statement `at` of block `id` (past the last: before its
@@ -84,11 +95,18 @@ impl<'s> Assigned<'s> {
         go: &mut dyn FnMut(Asked),
     ) -> Option<Vec<Constant>> {
         let stmts = &self.program.block(id)?.stmts;
-        let held = stmts.iter().enumerate().take(at).rev().find_map(|(at, stmt)| {
-            effect(stmt, var, self.summaries).map(|effect| (at, effect, stmt.site.skip.is_some()))
+        let before = stmts.iter().enumerate().take(at);
+        // Nobody comes here past an alarm.
+        let before = before.rev().take_while(|(_, stmt)| !is_final(stmt));
+        let ends = stmts.iter().take(at).any(is_final);
+        let held = before.clone().find_map(|(at, stmt)| {
+            let effect = effect(stmt, var, self.summaries).filter(|_| !self.misses((id, at), stmt, var));
+            effect.map(|effect| (at, effect, stmt.site.skip.is_some()))
         });
         let Some((at, effect, skipped)) = held else {
-            self.ahead(id, var, go)?;
+            if !ends {
+                self.ahead(id, var, go)?;
+            }
             return Some(found);
         };
         match effect {
@@ -103,6 +121,16 @@ impl<'s> Assigned<'s> {
             go((id, at, var));
         }
         Some(found)
+    }
+
+    /// True where a statement writes by a computed number that is not the variable's.
+    fn misses(&self, place: (BlockId, usize), stmt: &Stmt, var: Var) -> bool {
+        match (&stmt.kind, self.misses) {
+            (StmtKind::Assign { target: Place::Indirect(bank, index), .. }, Some(misses)) => {
+                misses(place, *bank, index, var)
+            }
+            _ => false,
+        }
     }
 
     /// Goes back to the ends of the blocks before one.

@@ -17,6 +17,8 @@ use crate::ir::{BlockId, Expr, Module, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::by_program::look_at_each;
 use crate::legalize::features::Feature;
+use crate::legalize::variables::computed_numbers::Written;
+use crate::legalize::variables::state::additional;
 use crate::text::Span;
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,12 +30,20 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let in_force = LazyLock::new(|| FoundCodes::of(module));
     let all = look_at_each(module, |index, _| {
         let has_any = shared.may_concern(index, |features| features.has(Feature::Code));
-        if has_any { look(index, module, shared, &in_force) } else { Vec::new() }
+        if has_any { look(index, module, shared, &in_force) } else { Default::default() }
     });
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     // Programs with words beside such a code: a code that both have may take them otherwise.
     let mut worded: BTreeSet<(usize, char)> = BTreeSet::new();
-    for (index, met) in all.into_iter().enumerate() {
+    for (index, (met, known)) in all.into_iter().enumerate() {
+        let origin = context.origin(index);
+        for (span, numbers) in known {
+            let held = context.computed_codes.entry((origin, span)).or_insert(Some(Vec::new()));
+            *held = held.take().zip(numbers).map(|(mut all, more)| {
+                all.extend(more);
+                all
+            });
+        }
         worded.extend(met.iter().filter(|met| met.worded).map(|met| (index, met.letter)));
         found.extend(met.into_iter().map(|met| (index, met.span, (met.letter, met.finding))));
     }
@@ -121,20 +131,28 @@ struct Met {
     worded: bool,
 }
 
-/// The codes of a program of which something is to be said.
+/// A computed G code, and the numbers that it may be, if they are known.
+type Computed = (Span, Option<Vec<f64>>);
+
+/// The codes of a program of which something is to be said, and what each computed G code may be.
 fn look(
     index: usize,
     module: &Module,
     context: &Context<'_>,
     in_force: &LazyLock<FoundCodes, impl FnOnce() -> FoundCodes>,
-) -> Vec<Met> {
-    let Some(program) = module.programs.get(index) else { return Vec::new() };
+) -> (Vec<Met>, Vec<Computed>) {
+    let Some(program) = module.programs.get(index) else { return Default::default() };
     let (source, target) = (context.source, context.target);
     let rounds = [source, target].iter().all(|control| control.is(Question::IntegerWordRounds));
     let summaries = LazyCell::new(|| context.summaries(module));
-    let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
+    let written = LazyCell::new(|| {
+        let standard = !additional::may_select(module, context);
+        Written::in_program(program, &summaries, standard, (source, target))
+    });
+    let misses = |place, bank, number: &Expr, var| written.misses(place, bank, number, var);
+    let assigned = LazyCell::new(|| Assigned::new(program, &summaries).with(&misses));
     let ranges = LazyCell::new(|| Ranges::of_constants_and_codes(program, &summaries));
-    let mut met = Vec::new();
+    let (mut met, mut computed) = (Vec::new(), Vec::new());
     for (id, block) in program.ids().zip(&program.blocks) {
         for (at, stmt) in block.stmts.iter().enumerate() {
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
@@ -144,6 +162,10 @@ fn look(
                 let mut numbers = listed.or_else(|| counted(&ranges.at(id, at, value)));
                 if rounds && value.constant().is_none() {
                     numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
+                }
+                if *letter == 'G' && value.constant().is_none() {
+                    let known = numbers.as_ref().map(|all| all.iter().map(|n| n.number).collect());
+                    computed.push((stmt.site.span, known));
                 }
                 let differs = |n: &Number| !is_same(*letter, n.number, source, target);
                 // What nobody can have put in force where it is read is none of them.
@@ -166,7 +188,7 @@ fn look(
             }
         }
     }
-    met
+    (met, computed)
 }
 
 /// How both controls number the codes of a letter.

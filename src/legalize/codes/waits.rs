@@ -50,8 +50,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let compensates: Vec<bool> = match limits {
         true => {
             let summaries = context.summaries(module);
-            let source = context.source;
-            let begin = module.programs.iter().map(|program| compensates(program, &summaries, source));
+            let numbered = module.programs.iter().enumerate();
+            let begin = numbered.map(|(index, program)| compensates(index, program, &summaries, context));
             in_touch(module, begin.collect())
         }
         false => Vec::new(),
@@ -103,7 +103,8 @@ fn before(program: &Program, come_back: bool, limits: bool) -> Vec<Option<Vec<us
 }
 
 /// True for a program in which cutter compensation may begin.
-fn compensates(program: &Program, summaries: &Summaries, source: &Control) -> bool {
+fn compensates(index: usize, program: &Program, summaries: &Summaries, context: &Context<'_>) -> bool {
+    let (source, origin) = (context.source, context.origin(index));
     let begins = |op: Op| matches!(op, Op::RadiusLeft | Op::RadiusRight);
     let assigned = LazyCell::new(|| Assigned::new(program, summaries));
     program.ids().zip(&program.blocks).any(|(id, block)| {
@@ -111,10 +112,17 @@ fn compensates(program: &Program, summaries: &Summaries, source: &Control) -> bo
             let items = stmt.kind.nc().map_or(&[][..], |nc| &nc.items);
             items.iter().any(|item| match item {
                 NcItem::Op(op) => begins(*op),
-                NcItem::Code('G', value) => numbers(value, &assigned, id, at, source).is_none_or(|all| {
-                    let mut rows = all.iter().filter_map(|n| source.code('G', n.number, &[]));
-                    rows.any(|row| begins(row.op))
-                }),
+                NcItem::Code('G', value) => {
+                    let known = context.computed_codes.get(&(origin, stmt.site.span)).cloned().flatten();
+                    let found = || {
+                        let all = numbers(value, &assigned, id, at, source)?;
+                        Some(all.iter().map(|n| n.number).collect::<Vec<_>>())
+                    };
+                    known.or_else(found).is_none_or(|all| {
+                        let mut rows = all.iter().filter_map(|number| source.code('G', *number, &[]));
+                        rows.any(|row| begins(row.op))
+                    })
+                }
                 _ => false,
             })
         })

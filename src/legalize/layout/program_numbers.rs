@@ -84,7 +84,7 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
             (_, ProgramName::Number(n)) if *n >= 1 && *n <= max => Some(*n),
             (Some(n), _) => Some(*n),
             _ => {
-                let origin = context.origins.get(index).copied().unwrap_or(index);
+                let origin = context.origin(index);
                 let before = before.remove(&origin);
                 let sub = program.returns() && !program.ends();
                 let is_free =

@@ -12,6 +12,7 @@ mod found;
 mod meaning;
 mod numbers;
 mod shift;
+mod written;
 
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
@@ -28,6 +29,7 @@ use numbers::{Numbers, Table};
 use shift::shift;
 use std::cell::LazyCell;
 use std::sync::Arc;
+pub(in crate::legalize) use written::Written;
 
 /// Computed numbers are followed for so many of a program; others are not known.
 const MOST_LOOKED_UP: usize = 500;

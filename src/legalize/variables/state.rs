@@ -4,7 +4,7 @@
 //! cycle start are a millisecond timer, set to 0 where the main program starts, over a thousand. A position whose
 //! frame no source settles is taken as the work position, with a review diagnostic from lowering.
 
-pub(super) mod additional;
+pub(in crate::legalize) mod additional;
 mod findings;
 
 use crate::canon::{Group, Op, Role, Sys};

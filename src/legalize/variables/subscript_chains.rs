@@ -30,7 +30,8 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     features.has(Feature::Indirect) && (takes_none(context.target) || context.target.numbered().is_none())
 }
 
-fn takes_none(target: &Control) -> bool {
+/// True if the target takes no variable by a computed number.
+pub(super) fn takes_none(target: &Control) -> bool {
     target.statement("variable.computed").is_none()
 }
 

@@ -24,6 +24,7 @@ pub use values::Values;
 use super::cfg::labelled;
 use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve_within};
 use super::effects::{Summaries, Vars};
+use super::text_ends::is_final;
 use super::{Cfg, VarSet};
 use crate::canon::{Group, Sys};
 use crate::ir::{Bank, Block, BlockId, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
@@ -124,6 +125,8 @@ impl Steps for Rules<'_> {
     fn stmt(&self, place: (BlockId, usize), stmt: &Stmt, state: &mut State) {
         let skipped = stmt.site.skip.is_some();
         match &stmt.kind {
+            // Nobody comes past it.
+            _ if is_final(stmt) => state.fill(Values::Few(Vec::new())),
             StmtKind::Assign { target: Place::Var(var), value } => {
                 if let Some(at) = self.places.get(var) {
                     let input = self.inputs.contains(&place);

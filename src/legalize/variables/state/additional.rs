@@ -24,7 +24,7 @@ const STANDARD_OFFSETS: f64 = 6.0;
 const ALARM: f64 = 99.0;
 
 /// True if a program may select a work offset other than the standard six, which are G54 to G59.
-pub(in crate::legalize::variables) fn may_select(module: &Module, context: &Context<'_>) -> bool {
+pub(in crate::legalize) fn may_select(module: &Module, context: &Context<'_>) -> bool {
     let more = |nc: &Nc| {
         let number = nc.word(Role::WorkOffset).map(Expr::constant);
         number.is_some_and(|number| number.is_none_or(|number| number > STANDARD_OFFSETS))
