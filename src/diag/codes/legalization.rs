@@ -63,6 +63,11 @@ Nothing needs to be done. To keep the cycle, set the machine as the message says
 "The target has no feed per turn. The feed is written per minute: so much a turn, times the speed that the program gives the spindle. It is told once a program.
 
 Nothing needs to be done. While the operator turns the override of the spindle, the feed stays as it is, and the chip gets thinner or thicker."
+
+    "0414" ShiftCounted Note "a local shift is counted into the coordinates"
+"The target has no local shift (G52). The shift is added to the absolute coordinates of the blocks that it is in force for, and its blocks go. The machine goes to the same places; they are written in the coordinates of the work offset.
+
+Nothing needs to be done. To move such a group of cuts on the target, change the coordinates, or give it a work offset of its own."
         }
     };
 }

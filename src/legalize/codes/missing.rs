@@ -44,8 +44,9 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         found.extend(nc.ops().filter(|op| !had.contains(op)).map(|op| (stmt.site.span, op)));
     }
     for (span, op) in found {
-        // A hole or a return that stayed as it was, for a reason that is told, has the source's code still.
-        if (op.is_hole() || op == Op::Reference2) && context.is_refused(index, span) {
+        // A hole, a return or a shift that stayed as it was, for a reason that is told, has the source's code still.
+        if (op.is_hole() || matches!(op, Op::Reference2 | Op::LocalShift)) && context.is_refused(index, span)
+        {
             continue;
         }
         let meaning = op.meaning().trim().trim_end_matches('.');

@@ -4,6 +4,7 @@ pub(in crate::legalize) mod active_offsets;
 pub(in crate::legalize) mod arc_starts;
 pub(in crate::legalize) mod argument_offsets;
 pub(in crate::legalize) mod external;
+pub(in crate::legalize) mod folded_shifts;
 pub(in crate::legalize) mod kept_length;
 pub(in crate::legalize) mod kept_radius;
 pub(in crate::legalize) mod later_lengths;

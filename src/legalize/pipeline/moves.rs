@@ -15,8 +15,9 @@ use crate::legalize::moves::{
     units, word_rounds,
 };
 use crate::legalize::offsets::{
-    active_offsets, external, kept_length, kept_radius, later_lengths, left_shifts, length_radius,
-    named_lengths, no_shifts, radius_words, set_position, table_writes, tool_lengths, written_tools,
+    active_offsets, external, folded_shifts, kept_length, kept_radius, later_lengths, left_shifts,
+    length_radius, named_lengths, no_shifts, radius_words, set_position, table_writes, tool_lengths,
+    written_tools,
 };
 
 /// Before the tool lengths are asked about.
@@ -62,8 +63,6 @@ pub(super) const MOVES: &[Pass] = &[
     .when(|c, _| inverse_feeds::concerns(c)),
     Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
         .when(set_position::concerns),
-    Pass::edits("no-shifts", "local shifts of 0 need nothing where the target has none", no_shifts::run)
-        .when(no_shifts::concerns),
     Pass::edits("external", "shifts that share a register on one control are kept apart", external::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
     Pass::edits(
@@ -97,6 +96,16 @@ pub(super) const MOVES: &[Pass] = &[
     .when(under_increments::concerns),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
         .when(|c, _| c.has(Feature::Increments)),
+    Pass::edits(
+        "folded-shifts",
+        "local shifts are counted into the coordinates where the target has none",
+        folded_shifts::run,
+    )
+    .when(folded_shifts::concerns)
+    .needs(&["increments", "modal-calls"]),
+    Pass::edits("no-shifts", "local shifts of 0 need nothing where the target has none", no_shifts::run)
+        .when(no_shifts::concerns)
+        .needs(&["folded-shifts"]),
     Pass::edits("hole-circles", "holes on a circle get blocks of their own", hole_circles::run)
         .when(|c, _| hole_circles::concerns(c))
         .needs(&["increments"]),
