@@ -141,7 +141,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[400, 303, 53, 28], [621, 111, 70, 33], [279, 24, 96, 57], [251, 10, 60, 41]]);
+    assert_eq!(counts, [[400, 457, 53, 28], [621, 165, 69, 33], [283, 24, 96, 57], [251, 10, 60, 41]]);
 }
 
 fn control(name: &str) -> Control {
@@ -250,6 +250,40 @@ fn fanuc_system_variables_are_those_of_the_manual() {
     assert_eq!(mill.system_named("_EMPTY").map(|row| row.state), Some(Sys::Empty));
 }
 
+// Seed 001, "System Variable Names" and the tables after it: n is the bit or the axis of the machine.
+#[test]
+fn names_with_a_subscript_are_numbers() {
+    let mill = control("fanuc");
+    for (name, subscript, number) in [
+        ("_ABSIO", 1, Some(5001)),
+        ("_abskp", 5, Some(5065)),
+        ("_ABSIO", 6, None),
+        ("_UI", 0, Some(1000)),
+        ("_UI", 31, Some(1031)),
+        ("_UI", 32, None),
+        ("_UOL", 3, Some(1135)),
+        ("_WZCMN", 2, Some(5202)),
+        ("_WZG54", 1, Some(5221)),
+        ("_WZG55", 2, Some(5242)),
+        ("_WZG59", 5, Some(5325)),
+        ("_WZG53", 1, None),
+        ("_WZG60", 1, None),
+        ("_WZG", 1, None),
+        ("_OFSX", 1, None),
+        ("_EMPTY", 1, None),
+    ] {
+        assert_eq!(mill.number_named(name, subscript), number, "{name}[{subscript}]");
+    }
+    let lathe = profile("dialect = \"fanuc\"\nmachine = \"lathe\"\naxes = [\"X\", \"Z\", \"C\", \"Y\"]");
+    for (name, subscript, number) in
+        [("_ABSIO", 4, Some(5004)), ("_ABSIO", 5, None), ("_OFSZ", 64, Some(2164)), ("_WZG55", 2, Some(5242))]
+    {
+        assert_eq!(lathe.number_named(name, subscript), number, "{name}[{subscript}]");
+    }
+    holds(&mill, "#", Some(4330), Sys::AddressNow, &[16]);
+    holds(&mill, "#", Some(5181), Sys::Other, &[5181]);
+}
+
 // Seed 001, "Tool Offset system example": X Z R T Y, and the axes X, Z of the seminar's machine,
 // whose fourth axis is Y (O9019).
 #[test]
@@ -301,6 +335,10 @@ fn fanuc_codes_are_those_of_the_manual() {
         ("M30", Op::EndRewind),
     ] {
         means(&mill, block, op);
+    }
+    // What only the control has is named, and never carried across (facts/fanuc-mill.md 2).
+    for block in ["G2.2", "G6.2", "G34", "G39", "G43.4 H1", "G54.2 P1", "G68.2 X0"] {
+        means(&mill, block, Op::MachineSpecific);
     }
     let g58 = mill.code('G', 58.0, &[]).unwrap();
     assert_eq!(g58.fixed.get(&Role::WorkOffset), Some(&5.0));

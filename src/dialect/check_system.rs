@@ -121,4 +121,19 @@ impl SystemVariable {
         }
         Some(Some(number))
     }
+
+    /// For the name of a run without its subscript, `_ABSIO` or `_WZG55`: what its first subscript adds to the number where
+    /// the name has it, and which subscript stands in brackets.
+    pub fn run_named(&self, name: &str) -> Option<(u32, usize)> {
+        let own = self.alias.as_deref()?.strip_suffix("[n]")?;
+        let Some((stem, first)) = own.split_once('{') else {
+            return own.eq_ignore_ascii_case(name).then_some((0, 0));
+        };
+        let first: u32 = first.strip_suffix('}')?.parse().ok()?;
+        let (start, digits) = name.split_at_checked(stem.len())?;
+        let written = start.eq_ignore_ascii_case(stem) && digits.bytes().all(|byte| byte.is_ascii_digit());
+        let at = written.then(|| digits.parse::<u32>().ok()).flatten()?.checked_sub(first)?;
+        let outer = self.subscripts.first().filter(|outer| at < outer.count)?;
+        Some((at.checked_mul(outer.step)?, 1))
+    }
 }

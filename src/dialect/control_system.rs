@@ -69,12 +69,24 @@ impl Control {
         runs.into_iter().any(|(_, first, last)| (*first..=*last).contains(&number))
     }
 
-    /// A system variable by its fixed name: `_EMPTY`, `_ABSIO[n]`.
+    /// A system variable by its fixed name: `_EMPTY`.
     pub fn system_named(&self, alias: &str) -> Option<&SystemVariable> {
         self.dialect
             .system
             .iter()
             .find(|row| row.alias.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(alias)))
+    }
+
+    /// The number of the system variable with a fixed name and a subscript: `_ABSIO[1]`, `_WZG55[1]`.
+    pub fn number_named(&self, name: &str, subscript: u32) -> Option<u32> {
+        // A run over the axes of a machine is a row an axis: the first of them has the first number.
+        let rows = self.dialect.system.iter().filter(|row| row.run_named(name).is_some());
+        let row = rows.min_by_key(|row| row.first)?;
+        let (outer, inner) = row.run_named(name)?;
+        let at = subscript.checked_sub(row.subscripts.get(inner).map_or(1, |inner| inner.from))?;
+        let number = row.first?.checked_add(outer)?.checked_add(at)?;
+        let (.., found) = self.read_system(&row.name, Some(number))?;
+        (found.alias == row.alias).then_some(number)
     }
 
     /// The variable that holds a state: its name, and its number where it has one.

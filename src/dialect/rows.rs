@@ -128,7 +128,7 @@ pub struct SystemVariable {
     /// Its name before the number, where it is not `#`: `AX`, `FX`, `H`.
     #[serde(default = "hash")]
     pub name: String,
-    /// Its fixed name, where it has one: `_ABSIO[n]`.
+    /// Its fixed name, where it has one: `_EMPTY`, `_ABSIO[n]`; `_WZG{54}[n]` where its first subscript counts on from 54.
     pub alias: Option<String>,
     /// The first variable number; absent for a name without subscript.
     pub first: Option<u32>,

@@ -120,7 +120,7 @@ impl Flat {
         let (first, second, _) = machine.plane.axes();
         let unit = machine.unit();
         if let Some(radius) = command.word(Role::ArcRadius) {
-            if machine.rules.lathe && radius < 0.0 {
+            if machine.rules.lathe && machine.rules.turning.radius_not_negative && radius < 0.0 {
                 return Err(Stop::alarm(machine.lathe_name("PS0023"), "the radius of an arc is negative"));
             }
             return self.centre_by_radius(radius * unit, machine, trace);

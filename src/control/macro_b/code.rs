@@ -170,7 +170,7 @@ pub enum Var {
     Named(String),
     Computed(Box<Ex>),
     /// A family with a fixed name: `#_ABSIO[1]`.
-    Family(Sys, Vec<u32>, Box<Ex>),
+    Family(String, Box<Ex>),
     /// No such variable.
     Missing(u32),
 }

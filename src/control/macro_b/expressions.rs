@@ -131,12 +131,8 @@ impl<'c, 'f> Expressions<'c, 'f> {
                 Var::Computed(inner)
             }
             Index::Computed(inner) => {
-                let family = format!("{}[n]", variable.name.trim_start_matches('#'));
                 let inner = Box::new(self.expr(inner));
-                match self.control.system_named(&family) {
-                    Some(row) => Var::Family(row.state, row.fixed.clone(), inner),
-                    None => Var::Missing(0),
-                }
+                Var::Family(variable.name.trim_start_matches('#').to_owned(), inner)
             }
             Index::None | Index::Letter(_) => Var::Missing(0),
         }

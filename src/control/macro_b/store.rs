@@ -1,6 +1,6 @@
 //! Reads and writes variables, those of the machine included.
 
-use super::code::{System, Var};
+use super::code::{Ex, System, Var};
 use super::expressions::numbered;
 use super::numeric::Value;
 use super::run::Runner;
@@ -40,12 +40,9 @@ impl Runner<'_> {
                 let var = self.found(number);
                 self.read(&var)
             }
-            Var::Family(state, fixed, index) => {
-                let mut subscripts = fixed.clone();
-                subscripts.push(self.index(index)?);
-                let value = self.session.machine.read(*state, &subscripts, &mut self.session.trace);
-                self.off = self.reading_off(value.unwrap_or(0.0));
-                value.map(Some).ok_or_else(|| self.no_variable(0))
+            Var::Family(name, index) => {
+                let var = self.of_run(name, index)?;
+                self.read(&var)
             }
             Var::Missing(number) => Err(self.no_variable(*number)),
         }
@@ -66,15 +63,9 @@ impl Runner<'_> {
                 let var = self.found(number);
                 return self.write(&var, value, off);
             }
-            Var::Family(state, fixed, index) => {
-                let mut subscripts = fixed.clone();
-                subscripts.push(self.index(index)?);
-                self.session.machine.write(
-                    *state,
-                    &subscripts,
-                    value.unwrap_or(0.0),
-                    &mut self.session.trace,
-                )?;
+            Var::Family(name, index) => {
+                let var = self.of_run(name, index)?;
+                return self.write(&var, value, off);
             }
             Var::Bit(system, _) => return Err(self.no_variable(system.number)),
             Var::Missing(number) => return Err(self.no_variable(*number)),
@@ -85,6 +76,14 @@ impl Runner<'_> {
     fn write_shared(&mut self, number: u32, value: Value, off: f64) {
         self.memory.set(number, value, off);
         self.session.wrote(|| format!("#{number}"), value);
+    }
+
+    /// The variable with a fixed name and a subscript.
+    fn of_run(&mut self, name: &str, index: &Ex) -> Result<Var, Halt> {
+        let subscript = self.index(index)?;
+        let number = self.session.control.number_named(name, subscript).ok_or_else(|| self.no_variable(0))?;
+        self.off = 0.0;
+        Ok(self.found(number))
     }
 
     /// The variable with a computed number; what it rests on is noted now.

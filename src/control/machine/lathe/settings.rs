@@ -18,6 +18,8 @@ pub struct Turning {
     pub machine_rapid: bool,
     /// The unit that a code must agree with (Z10), where the profile says it: true for inches.
     pub inch_set: Option<bool>,
+    /// True where a negative radius of an arc is an alarm (C7).
+    pub radius_not_negative: bool,
     /// True where X is written as a radius (C1).
     pub radii: bool,
     /// True where corners are written by C and R without a comma (Q3).
@@ -90,6 +92,8 @@ impl Turning {
                 .and_then(|(_, value)| value)
                 .map(|value| value == "turn"),
             machine_rapid: answer(Question::MachineMoveRapid) != Some("false"),
+            radius_not_negative: (control.dialect().forbidden.iter())
+                .any(|row| row.negative && row.words.contains(&Role::ArcRadius)),
             inch_set: control
                 .units()
                 .filter(|_| answer(Question::UnitsAgree) == Some("true"))

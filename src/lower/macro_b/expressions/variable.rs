@@ -83,17 +83,30 @@ impl<'a> Lowering<'a> {
     fn number_of(&self, variable: &VarRef) -> Option<u32> {
         match &variable.index {
             Index::Number(number) => Some(*number),
-            Index::Computed(index) => constant(index).and_then(crate::ir::eval::whole),
+            Index::Computed(index) => {
+                let number = constant(index).and_then(crate::ir::eval::whole)?;
+                if variable.name == "#" { Some(number) } else { self.of_run(variable, number) }
+            }
+            Index::Name(name) => self.control.system_named(name).and_then(|row| row.first),
             _ => None,
         }
+    }
+
+    /// The number of a variable with a name of the control's and a subscript: `[#_ABSIO[1]]`.
+    fn of_run(&self, variable: &VarRef, subscript: u32) -> Option<u32> {
+        self.control.number_named(variable.name.strip_prefix('#')?, subscript)
     }
 
     fn variable(&mut self, variable: &'a VarRef, depth: u32) -> Option<Expr> {
         let span = variable.span;
         match &variable.index {
             _ if variable.name != "#" => {
-                self.findings
-                    .not_understood(span, format!("this control has no variable '{}'", variable.name));
+                if let Some(number) = self.number_of(variable) {
+                    return self.numbered(number, span);
+                }
+                let message = format!("this control has no variable '{}' with that number", variable.name);
+                let help = "write the variable's number, as #5001, or #[5000+#1] where it is computed";
+                self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
                 None
             }
             Index::Number(number) => self.numbered(*number, span),
