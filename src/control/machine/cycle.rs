@@ -58,7 +58,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     let rules = &machine.rules;
     let drills = begins.is_some() && rules.cycle_runs_without_words.peek();
     if !alone || drills || rules.lone_words_kept.ask(trace) {
-        let kept = cycle.bottom_kept(command, incremental, along);
+        let kept = cycle.bottom_kept(command, along);
         let kept = kept.filter(|_| rules.planes_frozen.ask(trace));
         cycle.read(command, (unit, incremental), along);
         cycle.stay(kept);
@@ -227,18 +227,19 @@ impl Cycle {
         Self { r, z, ..Self::new(Op::CycleDrill, initial) }
     }
 
-    /// The bottom of before a block that moves the retract plane alone, by increments: it was a place when its block was read.
-    fn bottom_kept(&self, command: &Command, incremental: bool, along: usize) -> Option<f64> {
+    /// The bottom of before a block that moves the retract plane alone, if increments told it: it was a place when its block was read.
+    fn bottom_kept(&self, command: &Command, along: usize) -> Option<f64> {
         let deeper = command.axes().any(|(axis, _)| axis == along);
-        let told = incremental && !deeper && self.r.is_some_and(|(_, given)| given);
-        (told && command.word(Role::CycleR).is_some() && self.z.is_some_and(|(_, given)| given))
+        let lifts = !deeper && command.word(Role::CycleR).is_some();
+        (lifts && self.z.is_some_and(|(_, given)| given))
             .then(|| self.planes(None).map(|planes| planes.bottom))?
     }
 
     /// Keeps the bottom where it was, under another retract plane.
     fn stay(&mut self, kept: Option<f64>) {
-        let Some(((r, _), bottom)) = self.r.zip(kept) else { return };
-        self.z = Some((bottom - self.initial - r, true));
+        let Some(((r, given), bottom)) = self.r.zip(kept) else { return };
+        let plane = if given { self.initial + r } else { r };
+        self.z = Some((bottom - plane, true));
     }
 
     /// Takes the block's words; those it does not have stay.

@@ -143,3 +143,14 @@ fn a_bottom_stays_where_it_was_when_the_retract_plane_moves_by_increments() {
     let steps: Vec<f64> = first.iter().map(|bottom| ((bottom - first[0]) * 1e6).round() / 1e6).collect();
     assert_eq!(steps, [0.0, 0.0, 2.0, 2.0]);
 }
+
+/// At Z31 R-8 is a plane of 23 and Z-10 a bottom of 13, a place once its block is read (facts/ambiguities.md 2): a plane of 20 leaves it,
+/// and so does one under G90 that an increment of Z counted from.
+#[test]
+fn a_bottom_that_an_increment_told_stays_under_a_plane_that_is_a_place() {
+    let text = "O1\nG21G90G17\nG0X0Y0Z31.\nG91G99G81X1.R-8.Z-10.F10.\nG90X2.R20.\nG80\nM30\n";
+    assert_eq!(bottoms(&fanuc(text)), [13.0, 13.0]);
+    let text =
+        "O1\nG21G90G17\nG0X0Y0Z31.\nG99G81X1.R5.Z-5.F10.\nG91X1.Z-12.\nG90X3.R2.\nX4.R1.Z-9.\nG80\nM30\n";
+    assert_eq!(bottoms(&fanuc(text)), [-5.0, -7.0, -7.0, -9.0]);
+}

@@ -118,7 +118,7 @@ struct Writer<'w, 'c> {
 const MIXED: &str = "a drilling cycle is in force on some of the ways to this block, and the target has no cycles: end it with G80 on every way";
 const FROZEN: &str = "the planes of this cycle were told under the other of G90 and G91, and whether they keep their meaning is not \
      known: tell them again in this block";
-const LIFTED: &str = "the retract plane of this cycle moves under G91, and its bottom was told in a block before: write Z again beside R";
+const LIFTED: &str = "the retract plane of this cycle moves, and its bottom was told by an increment in a block before: write Z again beside R";
 const MOTION: &str = "which interpolation is in force after this cycle is not known, and the target is in rapid traverse: write G0 or G1 \
      in the next move";
 const KEPT: &str =

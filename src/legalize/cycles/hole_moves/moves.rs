@@ -38,14 +38,14 @@ pub(super) fn mixes(drill: &Drill, modal: &Modal) -> bool {
         && !(drill.told(Told::Retract) == Value::None && drill.incremental[1] == Some(false))
 }
 
-/// True where a block moves the retract plane by increments and leaves the bottom that an increment told: that is a place by
-/// then, and no distance from the new plane. `drill` is the cycle after the block.
+/// True where a block moves the retract plane and leaves the bottom that an increment told: that is a place by then, and no
+/// distance from the new plane. `drill` is the cycle after the block.
 pub(super) fn lifts(nc: &Nc, before: &Known, drill: &Drill) -> bool {
     let Cycle::On(was) = &before.cycle else { return false };
     let retract = drill.told(Told::Retract);
     let moved =
         nc.word(Role::CycleR).is_some() && (retract != was.told(Told::Retract) || retract == Value::Held);
-    let by_steps = drill.incremental.iter().all(|told| *told != Some(false));
+    let by_steps = drill.incremental[1] != Some(false);
     moved && by_steps && nc.word(Role::Z).is_none() && was.told(Told::Bottom) != Value::None
 }
 
