@@ -132,12 +132,12 @@ mod tests {
             Control::from_profile("dialect = \"fanuc\"\nmachine = \"mill\"\nunits = \"metric\"\n").unwrap();
         let profile = "dialect = \"fadal\"\nmachine = \"mill\"\nunits = \"metric\"\n[[signal]]\ninput = 1\nnumber = 1\n";
         let target = Control::from_profile(profile).unwrap();
-        let text = "O1\nG21\nIF[#1000EQ1]GOTO5\nIF[#1001EQ1]GOTO5\nIF[#1040EQ1]GOTO5\nN5\nM30\n";
+        let text = "O1\nG21\nIF[#1000EQ1]GOTO5\nIF[#1001EQ1]GOTO5\nIF[#1030EQ1]GOTO5\nN5\nM30\n";
         let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: text.into() }];
         let made = survey(&inputs, &source, Some(&target));
         assert!(made.answered.is_some_and(|outcomes| outcomes.refused == 0), "{:?}", made.stays);
         let text = filled(&made, Side::Target, Some(profile)).unwrap();
-        for (number, wire) in [(0, 29), (40, 28)] {
+        for (number, wire) in [(0, 29), (30, 28)] {
             let lines =
                 format!("#? [[signal]]\n#? input = {wire} # or another one\n#? number = {number} # a.nc:");
             assert!(text.contains(&lines), "{text}");
