@@ -87,6 +87,13 @@ pub enum Asks {
         /// Its number.
         number: u32,
     },
+    /// Which input or output of the target has the wire of this signal.
+    Signal {
+        /// True for an input.
+        input: bool,
+        /// Its number on the source.
+        number: u32,
+    },
     /// A word that it takes, of a code that the profile names.
     Word {
         /// True for the target's profile.

@@ -9,13 +9,10 @@ use super::features::Features;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
-use crate::ir::analysis::computed_calls::CalledPrograms;
-use crate::ir::analysis::{ModalFacts, Summaries};
+use crate::ir::analysis::{ModalFacts, Summaries, computed_calls::CalledPrograms};
 use crate::ir::{Module, Var};
-use crate::legalize::layout::earlier::Earlier;
-use crate::legalize::layout::program_numbers::ProgramNumbers;
-use crate::legalize::registers::locked::Locked;
-use crate::legalize::registers::map::Registers;
+use crate::legalize::layout::{earlier::Earlier, program_numbers::ProgramNumbers};
+use crate::legalize::registers::{interface::Interface, locked::Locked, map::Registers};
 use crate::legalize::variables::computed_numbers::Reached;
 use crate::opt::Level;
 use crate::text::Span;
@@ -60,6 +57,8 @@ pub struct Context<'a> {
     pub(super) over_calls: BTreeSet<Var>,
     /// What programs hold copies of, from the pass `merged` on.
     pub copied: Vec<Copied>,
+    /// The arguments that come from outside the library or go there, from the pass `frames` on.
+    pub(super) interface: Interface,
     /// The register of each variable, from the pass `registers` on.
     pub registers: Registers,
     /// The number of each program, from the pass `program-numbers` on.
@@ -114,6 +113,7 @@ impl<'a> Context<'a> {
             earlier: Earlier::default(),
             locked: Locked::default(),
             over_calls: BTreeSet::new(),
+            interface: Interface::default(),
             copied: Vec::new(),
             registers: Registers::default(),
             numbers: ProgramNumbers::default(),

@@ -55,7 +55,9 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     );
     let programs = super::programs::entries(survey);
     let stand: Answer = Box::new(move |profile| profile.programs.extend(programs.iter().cloned()));
-    let of_target = asked(target, source).into_iter().chain(start_there).chain([stand]);
+    let (signals, of) = (survey.signals.clone(), target.clone());
+    let wired: Answer = Box::new(move |profile| super::signals::answer(&of, &signals, profile));
+    let of_target = asked(target, source).into_iter().chain(start_there).chain([stand, wired]);
     let of_target = of_target.chain(settings(survey, Side::Target)).chain(words(survey, Side::Target));
     let target = with(target, of_target.collect());
     let as_they_are = [answered.clone(), target.clone()];

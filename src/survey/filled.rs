@@ -87,7 +87,7 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     text = with_words(&text, &words, (ASKS, TELLS));
     text = match side {
         Side::Source => super::variables::asked_in(&text, survey),
-        Side::Target => super::programs::asked_in(&text, survey),
+        Side::Target => super::signals::asked_in(&super::programs::asked_in(&text, survey), survey),
     };
     match read(&text)? == before {
         true => Ok(text),

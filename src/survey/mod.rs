@@ -12,6 +12,7 @@ mod json;
 mod keys;
 mod programs;
 mod shape;
+mod signals;
 mod site_rows;
 mod start;
 mod text;
@@ -24,6 +25,7 @@ pub use filled::{Unfit, filled};
 pub use json::json;
 pub use keys::AskedSetting;
 pub use shape::{Missing, Shape};
+pub use signals::AskedSignal;
 pub use start::AskedStart;
 pub use text::text;
 pub use there::AskedThere;
@@ -66,6 +68,8 @@ pub struct Survey<'a> {
     pub words: Vec<AskedWord>,
     /// Names of the source's codes for which the target's profile has no code.
     pub there: Vec<AskedThere>,
+    /// Inputs and outputs of which the target's profile must say the wire.
+    pub signals: Vec<AskedSignal>,
     /// Variables that programs use and the table of their control has not.
     pub variables: Vec<AskedVariables>,
     /// The letters of the rotary axes that its programs move.
@@ -141,6 +145,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     settings.extend(digits);
     let words = words::asked(&places, &conversion.programs);
     let there = there::asked(&places, source, &conversion.programs);
+    let signals = signals::asked(&places, &conversion.programs);
     let variables = variables::asked(&places, source, &conversion.programs);
     for program in &mut conversion.programs {
         let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);
@@ -160,6 +165,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         settings,
         words,
         there,
+        signals,
         variables,
         rotary,
         rest: conversion,
@@ -189,7 +195,7 @@ impl Survey<'_> {
         let Some(best) = best else { return false };
         self.answered = Some(Outcomes::of(&best.programs));
         self.stays = reasons(&best.programs);
-        let known = (self.codes.len(), self.settings.len(), self.words.len(), self.asked_later());
+        let known = self.asked_so_far();
         let codes = codes::asked(self.inputs, places, self.controls[0], &best.programs).into_iter();
         let codes: Vec<AskedCode> =
             codes.filter(|new| !self.codes.iter().any(|old| old.code == new.code)).collect();
@@ -202,8 +208,18 @@ impl Survey<'_> {
         let words = words::asked(places, &best.programs).into_iter();
         let words: Vec<AskedWord> = words.filter(|new| !self.words.iter().any(|old| old.is(new))).collect();
         self.words.extend(words);
+        let signals = signals::asked(places, &best.programs).into_iter();
+        let signals: Vec<AskedSignal> =
+            signals.filter(|new| !self.signals.iter().any(|old| old.is(new))).collect();
+        self.signals.extend(signals);
         self.then.push(best);
-        known != (self.codes.len(), self.settings.len(), self.words.len(), self.asked_later())
+        known != self.asked_so_far()
+    }
+
+    /// How much is asked of each kind.
+    fn asked_so_far(&self) -> [usize; 5] {
+        let [codes, settings, words] = [self.codes.len(), self.settings.len(), self.words.len()];
+        [codes, settings, words, self.signals.len(), self.asked_later()]
     }
 
     /// How many facts are asked of the machines once others are known.

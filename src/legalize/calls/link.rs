@@ -2,38 +2,51 @@
 //!
 //! A call of a program that is not in the library stays a call of that number, since the shop may have the program
 //! in the machine; a reviewer must know it, because nothing is known of it. A maker's cycle that is not
-//! in the library has no number on the target and is an error. So is a call with arguments, if the target has no
-//! locals: which registers that program reads is known only when it is converted too. Of a program that the target's
+//! in the library has no number on the target and is an error. Where the target has no locals, arguments are set in
+//! registers before the call, and a reviewer is told which ([`crate::legalize::registers::interface`]); modal and repeated
+//! calls with arguments are errors. Of a program that the target's
 //! profile names a note says, once for the library, that it stands there.
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{Callee, Module, StmtKind, TermKind};
-use crate::legalize::calls::standing;
+use crate::ir::{Call, Callee, Module, StmtKind, TermKind};
+use crate::legalize::calls::{merged, standing};
 use crate::legalize::registers::needs::has_locals;
 use crate::legalize::{Context, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use foldhash::HashSet;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports calls of what is not there.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    report(module, context);
+    let unplaced = report(module, context);
     let mut changed = false;
     // What is refused anyway keeps no arguments that no program has.
-    for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
-        if let TermKind::Call { call, .. } = &mut block.term.kind
-            && matches!(call.callee, Callee::Cycle(_))
-        {
-            changed |= !call.arguments.is_empty();
-            call.arguments.clear();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for block in &mut program.blocks {
+            let modal = block.stmts.iter_mut().filter_map(|stmt| match &mut stmt.kind {
+                StmtKind::ModalCall(call) => Some((stmt.site.span, call)),
+                _ => None,
+            });
+            let end = match &mut block.term.kind {
+                TermKind::Call { call, .. } => Some((block.term.site.span, call)),
+                _ => None,
+            };
+            for (span, call) in modal.chain(end) {
+                if matches!(call.callee, Callee::Cycle(_)) || unplaced.contains(&(index, span)) {
+                    changed |= !call.arguments.is_empty();
+                    call.arguments.clear();
+                }
+            }
         }
     }
     changed
 }
 
-fn report(module: &Module, context: &mut Context<'_>) {
+/// Yields the calls whose arguments have no place.
+fn report(module: &Module, context: &mut Context<'_>) -> BTreeSet<(usize, Span)> {
+    let mut without = BTreeSet::new();
     stand_there(module, context);
     let known: HashSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     for (index, program) in module.programs.iter().enumerate() {
@@ -46,7 +59,11 @@ fn report(module: &Module, context: &mut Context<'_>) {
                             && !call.arguments.is_empty()
                             && !has_locals(context.target) =>
                     {
-                        unplaced(name, index, span, context);
+                        // The registers of the others are told when they are known.
+                        if !sets_registers(call, &block.term.kind) || merged::concerns(context.target) {
+                            unplaced(name, index, span, context);
+                            without.insert((index, span));
+                        }
                     }
                     callee => check(callee, &known, index, span, context),
                 }
@@ -56,6 +73,7 @@ fn report(module: &Module, context: &mut Context<'_>) {
             }
         }
     }
+    without
 }
 
 /// Tells once of each program that stands on the target, at the first call of it.
@@ -115,6 +133,12 @@ fn offset_in_force(index: usize, span: Span, context: &mut Context<'_>) {
                     whether that counts at once ('offset.active.immediately'): select the offset again after the call";
         context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
     }
+}
+
+/// True if the arguments can be set right before the call, for one run of the program.
+fn sets_registers(call: &Call, kind: &TermKind) -> bool {
+    let ends = matches!(kind, TermKind::Call { call: own, .. } if std::ptr::eq(&**own, call));
+    ends && call.level && call.count.is_none()
 }
 
 /// The target has no locals, so nobody knows where a program that is not there looks for its arguments.

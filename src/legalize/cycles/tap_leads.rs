@@ -3,16 +3,21 @@
 //! Law: a tap that feeds f a minute at S turns advances f / S each turn. Side conditions: both are known numbers where the
 //! cycle begins, or stand in its block, and the feed counts per minute. The speed word of the target's cycle takes the place of
 //! its feed, so the feed that was in force is said again where the cycle ends. A subprogram taps at the speed of its callers.
+//! Where the program computes the speed, a temporary holds it ([`held`]).
 //! Counter-example: one that a second program calls at another speed.
+
+mod held;
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::{Block, BlockId, Class, Expr, Module, Nc, NcItem, Stmt, StmtKind, Var};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
+use crate::legalize::rewrite::highest_temp;
+use held::{Held, HeldSpeeds};
 
 /// True if there are taps by feed, and the target's are by lead.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -27,22 +32,39 @@ pub(super) fn by_lead(control: &Control) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let speeds = OverCalls::of(module, &Speeds);
+    let open = held::open(module, &context.summaries(module));
+    let computed = OverCalls::of(module, &HeldSpeeds(&open));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
+        let temp = Var { class: Class::Temp, number: highest_temp(program) + 1 };
+        let (mut holds, mut own) = (false, Vec::new());
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let mut modal = facts.at(index, id);
             let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
-            for stmt in &mut block.stmts {
+            let mut held = computed.at(index, id).copied().unwrap_or(Held::Unknown);
+            held::enter(id, &mut held);
+            for (place, stmt) in block.stmts.iter_mut().enumerate() {
+                let vacant = open[index].contains(&(id, place));
+                held.step(index, stmt, vacant);
                 let (was, told) = (modal.op(Group::Cycle), speed);
                 modal.step(stmt);
                 speed.step(stmt);
                 let span = stmt.site.span;
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 if nc.ops().any(Op::is_tap) {
-                    if nc.word(Role::Lead).is_none()
-                        && let Err(why) = give_lead(nc, speed, modal.feed(), modal.op(Group::FeedMode))
+                    let says = nc.word(Role::Speed).cloned();
+                    if nc.word(Role::Lead).is_some() {
+                        // It has its lead.
+                    } else if held == Held::In(index)
+                        && !vacant
+                        && is_computed(nc, speed)
+                        && modal.op(Group::FeedMode) != Some(Op::FeedPerTurn)
+                        && held::give(nc, temp, modal.feed())
                     {
+                        holds = true;
+                        own.extend(says.map(|value| (id, place, value)));
+                    } else if let Err(why) = give_lead(nc, speed, modal.feed(), modal.op(Group::FeedMode)) {
                         found.push((Code::NoEquivalent, span, why));
                     }
                 } else if was.is_some_and(Op::is_tap)
@@ -76,6 +98,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 }
             }
         }
+        if holds {
+            held::hold(program, temp, &own, &open[index]);
+        }
         for (code, span, what) in found {
             context.add_once(index, what, Diagnostic::new(code, span, what));
         }
@@ -102,15 +127,25 @@ fn give_lead(nc: &mut Nc, speed: Speed, feed: Option<f64>, mode: Option<Op>) -> 
     if speed <= 0.0 || feed <= 0.0 {
         return Err("a tapping cycle needs a speed and a feed above 0");
     }
+    by_lead_now(nc, Expr::Number(feed / speed), Expr::Number(speed));
+    Ok(())
+}
+
+/// True if the speed is computed, or the feed that stands in the block.
+fn is_computed(nc: &Nc, speed: Speed) -> bool {
+    speed == Speed::Said || nc.word(Role::Feed).is_some_and(|feed| feed.constant().is_none())
+}
+
+/// Makes a tap by feed one by lead.
+fn by_lead_now(nc: &mut Nc, lead: Expr, speed: Expr) {
     nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Feed | Role::Speed, _)));
     for item in &mut nc.items {
         if *item == NcItem::Op(Op::CycleTap) {
             *item = NcItem::Op(Op::CycleTapByLead);
         }
     }
-    nc.items.push(NcItem::Word(Role::Lead, Expr::Number(feed / speed)));
-    nc.items.push(NcItem::Word(Role::Speed, Expr::Number(speed)));
-    Ok(())
+    nc.items.push(NcItem::Word(Role::Lead, lead));
+    nc.items.push(NcItem::Word(Role::Speed, speed));
 }
 
 /// The speed of the spindle, as the last word has it.

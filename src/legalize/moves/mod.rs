@@ -18,6 +18,7 @@ pub(in crate::legalize) mod off_circle;
 pub(in crate::legalize) mod other_start;
 pub(in crate::legalize) mod polar;
 pub(in crate::legalize) mod polar_mode;
+pub(in crate::legalize) mod probed_places;
 pub(in crate::legalize) mod rapid_in_force;
 pub(in crate::legalize) mod rapid_once;
 pub(in crate::legalize) mod reference;

@@ -13,7 +13,7 @@ use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
 use crate::legalize::moves::start;
 use crate::legalize::offsets::still_blocks;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
-use crate::legalize::registers::{allocate, clear, frames, outside, standing, temporaries};
+use crate::legalize::registers::{allocate, clear, frames, interface, outside, standing, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
 
 pub(super) const EXPRESSIONS: &[Pass] = &[
@@ -108,6 +108,13 @@ pub(super) const REGISTERS: &[Pass] = &[
         "reports variables that nothing here sets, where their number changes",
         outside::run,
     )
+    .needs(&["registers"]),
+    Pass::reports(
+        "interface",
+        "says where arguments from outside the library stand, and arguments to programs outside",
+        interface::run,
+    )
+    .when(frames::concerns)
     .needs(&["registers"]),
     Pass::reports(
         "standing",

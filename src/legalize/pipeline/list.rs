@@ -17,7 +17,7 @@ use crate::legalize::codes::{
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::{joined, mixed_places, other_start, start};
+use crate::legalize::moves::{joined, mixed_places, other_start, probed_places, start};
 use crate::legalize::offsets::{argument_offsets, offset_numbers, offset_rows, position_length, tool_word};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
@@ -276,9 +276,6 @@ const VARIABLES: &[Pass] = &[
     Pass::rewrites("probe-points", "touch points by number are kept in registers", probe_points::run)
         .changes_flow()
         .when(|c, _| c.role(Role::ProbePoint)),
-    Pass::rewrites("touch-points", "places where the probe touched are kept as point 1", touch_points::run)
-        .when(touch_points::concerns)
-        .needs(&["computed-numbers"]),
     Pass::edits("modal-reads", "modal codes that are read become constants or tests", modal_reads::run)
         .when(modal_reads::concerns)
         .changes_flow(),
@@ -296,6 +293,12 @@ const VARIABLES: &[Pass] = &[
     Pass::edits("position-length", "positions hold the tool length as they did", position_length::run)
         .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),
+    Pass::rewrites("probed-places", "probe moves in increments go to places", probed_places::run)
+        .when(probed_places::concerns)
+        .needs(&["position-length"]),
+    Pass::rewrites("touch-points", "places where the probe touched are kept as point 1", touch_points::run)
+        .when(touch_points::concerns)
+        .needs(&["computed-numbers", "position-length"]),
     Pass::reports(
         "tool-word",
         "checks whether the last tool word is the tool in the spindle",
@@ -326,6 +329,7 @@ const VARIABLES: &[Pass] = &[
             "modal-reads",
             "timers",
             "position-length",
+            "probed-places",
             "tool-word",
             "offset-rows",
             "signals",

@@ -3,7 +3,8 @@
 //! Law: a local of a program becomes a static of its own, and so does the same local of every program that shares its
 //! level: those that are called without a level of their own, as far as they name it. A call that opens a level sets the
 //! statics of the callee to the arguments, as far as it reads them, and to 0 what else it may read before it sets it; a
-//! program that a run begins with sets those of its own. What a call may write that its caller needs afterwards (a
+//! program that a run begins with sets those of its own, and one that returns though nothing calls it finds them where
+//! whoever calls it from outside sets them. What a call may write that its caller needs afterwards (a
 //! routine that is called with a level and shares locals with its caller in another way) is kept in temporaries over the
 //! call.
 //!
@@ -11,6 +12,7 @@
 //! level would need registers of its own. Counter-example: a macro that calls itself and counts down in #1.
 //! What is vacant has flags by now ([`crate::legalize::variables::vacancy_flags`]).
 
+mod apart;
 mod calls;
 mod levels;
 pub(in crate::legalize) mod repeats;
@@ -23,7 +25,9 @@ use crate::ir::{
     Bank, Block, BlockId, Callee, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind,
     Terminator, Var,
 };
+use crate::legalize::calls::merged;
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::registers::interface::Interface;
 use crate::legalize::registers::needs::has_locals;
 use crate::legalize::rewrite::put_first;
 use crate::legalize::{Context, Position, Rewriter, calls_of, rewrite_program};
@@ -31,9 +35,9 @@ use levels::Levels;
 use std::collections::BTreeSet;
 use thin_vec::ThinVec;
 
-/// True if programs have variables, and the target no locals.
+/// True if programs have variables or give arguments, and the target no locals.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    features.has(Feature::Variable) && !has_locals(context.target)
+    (features.has(Feature::Variable) || features.has(Feature::Call)) && !has_locals(context.target)
 }
 
 /// Turns all locals into statics.
@@ -42,10 +46,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let kept = repeats::kept(module, context.source);
     module.programs.iter_mut().for_each(|program| repeats::loops(program, |call| call.level));
     let levels = Levels::of(module, context.source);
+    let mut interface = Interface::default();
     for (index, program) in module.programs.iter_mut().enumerate() {
         program.held = held(index, program, &levels, context.source);
         rename(index, program, &levels);
     }
+    apart::give(module, context.source, &mut interface);
     let cut = calls::cut(module);
     let exposed = UpwardExposed::among(&cut, statics(module));
     repeats::refuse(kept, module, (&levels, &exposed), context);
@@ -54,8 +60,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     for index in roots(module) {
         let vars: Vec<Var> =
             exposed.at_entry(index).into_iter().filter(|var| levels.has(index, *var)).collect();
-        begin(index, &mut module.programs[index], &vars, &levels, context);
+        begin(index, &mut module.programs[index], &vars, &levels, (&mut interface, context));
     }
+    apart::rename(module, &interface);
+    context.interface = interface;
     if !context.target.is(Question::Vacancy) {
         module.programs.iter_mut().for_each(plain);
     }
@@ -135,11 +143,24 @@ fn rename(index: usize, program: &mut Program, levels: &Levels) {
 }
 
 /// What a program that a run begins with sets to 0 first.
-fn begin(index: usize, program: &mut Program, vars: &[Var], levels: &Levels, context: &mut Context<'_>) {
+fn begin(
+    index: usize,
+    program: &mut Program,
+    vars: &[Var],
+    levels: &Levels,
+    (interface, context): (&mut Interface, &mut Context<'_>),
+) {
     if vars.is_empty() {
         return;
     }
     if program.returns() {
+        let own = (levels, context.source);
+        // Where calls reach no farther than the file, nobody outside can call it.
+        if !merged::concerns(context.target)
+            && apart::take(index, vars, own, program.name.as_ref(), interface)
+        {
+            return;
+        }
         let names: Vec<String> = vars.iter().map(|var| levels.name(*var)).collect();
         let what = format!(
             "{} is read before it is set, and nothing in the library calls this program: on a target without local variables, neither what a caller gives nor what the run before left can be found",

@@ -19,6 +19,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let reads: Vec<VarSet> = look_at_each(module, |_, program| read(program));
     let moved = |var: &Var| {
         let register = context.registers.of.get(var)?;
+        if context.interface.holds(*var) {
+            return None;
+        }
         let set_here =
             !is_shared(var.class) || written.contains(*var) || context.registers.is_own(var, register);
         (!set_here).then(|| name_of(*var, module, context.source)).flatten().map(|name| (name, register))

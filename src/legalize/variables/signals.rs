@@ -6,7 +6,7 @@
 //! target must have all of its signals in one run. Counter-example: `#1100=2.` and `O(1)=1-2`, which lets the output float.
 
 use crate::canon::Sys;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr, Place, Program, Relation, StmtKind};
 use crate::legalize::{Context, rewrite_program};
@@ -141,7 +141,8 @@ fn report(index: usize, span: Span, state: Sys, number: Option<u32>, context: &m
     };
     let named = number.map_or("NUMBER".into(), |number| number.to_string());
     let mut shown = [state].into_iter().chain(opposite(state));
-    let help = match (shown.any(|state| context.target.system_run(state).is_some()), kind) {
+    let counts = shown.any(|state| context.target.system_run(state).is_some());
+    let help = match (counts, kind) {
         (true, _) => format!(
             "say in the target's profile which of its {kind}s is wired for it: [[signal]] with {kind} = 1 and \
              number = {named}"
@@ -154,5 +155,9 @@ fn report(index: usize, span: Span, state: Sys, number: Option<u32>, context: &m
             format!("no source says that a program of {title} can read an {kind}: write this by hand")
         }
     };
-    context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()).with_help(help));
+    let mut told = Diagnostic::new(Code::NoEquivalent, span, what.clone()).with_help(help);
+    if let Some(number) = number.filter(|_| counts) {
+        told = told.asking_for(Asks::Signal { input: kind == "input", number });
+    }
+    context.add_once(index, &what, told);
 }

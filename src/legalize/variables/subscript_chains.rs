@@ -4,8 +4,10 @@
 //! does. So it becomes a comparison with each number, and the statement with its variable after it; a branch or a call
 //! alike. Where several numbers hang on one variable, its values are compared, which each say all of them. Where a number
 //! may come that is none of them, because an operator edits a literal, an alarm stands after the last. Side conditions: the
-//! numbers are whole and few, and each is that of a variable of the source. Counter-example: `#[#1+100]` where a macro is
-//! called with any #1.
+//! numbers are whole and few, and each is that of a variable of the source. What a macro is called with counts where all calls
+//! of the library give literals ([`given`]). Counter-example: `#[#1+100]` where a macro is called with any #1.
+
+mod given;
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
@@ -18,6 +20,7 @@ use crate::ir::{
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{Part, highest_temp, rebuild, unless_skipped};
+use given::Given;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most numbers that a statement is written out for: where the target takes computed numbers, of its own variables, and
@@ -38,9 +41,11 @@ pub(super) fn takes_none(target: &Control) -> bool {
 /// Writes statements out.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let summaries = context.summaries(module);
+    let given = given::given(module);
     let mut any = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let chains = chains(program, &summaries, context);
+        let given = program.name.as_ref().and_then(|name| given.get(name));
+        let chains = chains(program, &summaries, given, context);
         for (span, chain) in chains.values() {
             if chain.may_miss {
                 let what = "the number of this variable is computed: it is one of a few as the numbers in the program have \
@@ -71,7 +76,7 @@ struct Chain {
 
 type Chains = BTreeMap<(BlockId, usize), (crate::text::Span, Chain)>;
 
-fn chains(program: &Program, summaries: &Summaries, context: &Context<'_>) -> Chains {
+fn chains(program: &Program, summaries: &Summaries, given: Option<&Given>, context: &Context<'_>) -> Chains {
     let (source, target) = (context.source, context.target);
     let most = if takes_none(target) { FEW } else { MOST };
     let there = |(bank, _): &Computed| *bank != Bank::Numbered || target.numbered().is_some();
@@ -91,7 +96,13 @@ fn chains(program: &Program, summaries: &Summaries, context: &Context<'_>) -> Ch
                 (values.all_whole() && values.bounds().is_some_and(|(low, _)| low >= least))
                     .then(|| values.numbers())
             };
-            let Some(all) = numbers(&ranges) else { continue };
+            let of_calls = || {
+                let values = given::values(&on, given.filter(|_| of.len() == 1)?)?;
+                Some(Numbers::of(values.into_iter().map(|number| (number, number))))
+            };
+            let few =
+                |all: &Numbers| all.runs().iter().map(|(first, last)| last - first + 1).sum::<u32>() <= most;
+            let Some(all) = numbers(&ranges).filter(few).or_else(of_calls) else { continue };
             let count: u32 = all.runs().iter().map(|(first, last)| last - first + 1).sum();
             if count == 0 || count > most {
                 continue;
@@ -143,6 +154,8 @@ fn variables(of: &[Computed], on: &Expr, value: u32, source: &Control) -> Option
 
 /// The variable of a number.
 pub(super) fn variable(bank: Bank, number: u32, source: &Control) -> Option<Var> {
+    let name = source.numbered().filter(|_| bank == Bank::Numbered);
+    let number = name.map_or(number, |name| source.cell(name, number));
     let class = match bank {
         Bank::Global => Class::Global,
         Bank::Parametric => Class::Parametric,

@@ -11,6 +11,7 @@
 mod conditions;
 mod entries;
 mod marks;
+mod outside;
 mod write;
 
 use crate::dialect::Question;
@@ -23,9 +24,9 @@ use marks::Marks;
 /// Words of a block that may be vacant, at the most: each doubles the blocks.
 const MOST_WORDS: usize = 3;
 
-/// True if there are variables, and only those of the source may be vacant.
+/// True if there are variables, arguments of calls too, and only those of the source may be vacant.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    features.has(Feature::Variable)
+    (features.has(Feature::Variable) || features.has(Feature::Call))
         && context.source.is(Question::Vacancy)
         && !context.target.is(Question::Vacancy)
 }

@@ -200,6 +200,11 @@ impl<'p> Ranges<'p> {
         Self::following(program, summaries, BTreeSet::new(), in_codes(program), false)
     }
 
+    /// As [`Ranges::of_these`], where every literal is taken for what it is.
+    pub fn of_constants(program: &'p Program, summaries: &'p Summaries, vars: BTreeSet<Var>) -> Self {
+        Self::following(program, summaries, BTreeSet::new(), vars, false)
+    }
+
     fn with(program: &'p Program, summaries: &'p Summaries, inputs: BTreeSet<(BlockId, usize)>) -> Self {
         Self::following(program, summaries, inputs, in_numbers(program), false)
     }

@@ -100,7 +100,7 @@ fn open(
 }
 
 /// What is vacant is 0 in a variable that never is. A count of increments of an unknown size is refused by now.
-fn number(value: Expr) -> Expr {
+pub(super) fn number(value: Expr) -> Expr {
     match value {
         Expr::Vacant => Expr::Number(0.0),
         Expr::Increments(count) => Expr::Number(count),

@@ -77,6 +77,12 @@ impl Levels {
         self.of.range((program, 0)..(program + 1, 0)).any(|(_, number)| *number == var.number)
     }
 
+    /// The locals of the level that the program runs in, and their statics.
+    pub fn locals(&self, program: usize) -> impl Iterator<Item = (u32, Var)> + '_ {
+        let of = self.of.range((program, 0)..(program + 1, 0));
+        of.map(|((_, local), number)| (*local, Var { class: Class::Static, number: *number }))
+    }
+
     /// What people call the locals of the level that the program runs in.
     pub fn held(&self, program: usize, source: &Control) -> Vec<(Var, String)> {
         let name = |local| source.numbered().map(|before| format!("{before}{local}")).unwrap_or_default();

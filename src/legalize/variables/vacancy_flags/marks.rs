@@ -3,6 +3,7 @@
 use super::MOST_WORDS;
 use super::conditions::asks;
 use super::entries::{Entries, Left};
+use super::outside::Outside;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{Around, Holds, Summaries, Vacancy};
@@ -33,6 +34,8 @@ pub(super) struct Marks {
     /// By program: blocks that make a variable 0 that is vacant, and do nothing else.
     zeroed: Vec<BTreeMap<BlockId, Var>>,
     names: Names,
+    /// What programs outside the library are given.
+    pub outside: Outside,
 }
 
 /// What is gathered before the flags are known.
@@ -43,6 +46,7 @@ struct Gathered {
     copies: BTreeMap<Key, BTreeSet<Key>>,
     /// Calls that share their caller's locals, both ways.
     neighbours: BTreeMap<usize, BTreeSet<usize>>,
+    outside: Outside,
 }
 
 fn key(program: usize, var: Var) -> Key {
@@ -86,6 +90,7 @@ impl Marks {
                 near.for_each(|other| go((Some(*other), var)));
             }
         });
+        marks.outside = gathered.outside;
         marks
     }
 
@@ -334,6 +339,10 @@ impl Own<'_> {
             let what =
                 "how often this calls may be vacant, and the target has no vacant variables: set it before";
             self.refused.push((span, what.into()));
+        }
+        if self.all.outside.note(call, self.names, may) {
+            let open = call.arguments.iter().filter(|argument| may(&argument.value));
+            open.for_each(|argument| self.asked(&argument.value, span));
         }
         for callee in self.names.callees(self.index, call) {
             self.entries.enter(self.index, callee, call, self.left, may);

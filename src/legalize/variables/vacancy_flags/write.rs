@@ -2,6 +2,7 @@
 
 use super::conditions::{rewritten, settled};
 use super::marks::{At, Marks, unsigned};
+use super::outside::given_by;
 use crate::canon::Op;
 use crate::dialect::{Control, Question};
 use crate::ir::{
@@ -142,6 +143,12 @@ impl Here<'_> {
         });
         let flags: Vec<Argument> = flags.filter(|argument| argument.value != Expr::Vacant).collect();
         call.arguments.extend(flags);
+        for local in self.marks.outside.flagged(call) {
+            let given = given_by(call, local).map(|argument| self.value_flag(&argument.value));
+            let value = given.filter(|flag| *flag != Expr::Vacant).unwrap_or(Expr::Number(0.0));
+            let flag = Var { class: Class::Local, number: local }.flag();
+            call.arguments.push(Argument { local: flag.number, value });
+        }
     }
 
     /// A block once with and once without each word that may be vacant.
