@@ -14,10 +14,11 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::analysis::Vacancy;
-use crate::ir::analysis::over_calls::OverCalls;
-use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
+use crate::ir::analysis::over_calls::{OverCalls, called};
+use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
+use crate::text::Span;
 use follow::{Shifted, Shifts, size};
 use obstacles::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -43,14 +44,20 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let library = Library {
         drills: features.any_op(Op::is_cycle),
         compensates: features.op(Op::RadiusLeft) || features.op(Op::RadiusRight),
+        shapes: features.any_op(is_shape),
         units: features.op(Op::Inch) && features.op(Op::Metric),
         clears: context.source.is(CLEARS),
+        touches: reads(&module.programs, has_touch),
+        external: reads(&module.programs, has_external) || sets(&module.programs, sets_external),
     };
+    let called = called(module);
     let (mut changed, none) = (false, BTreeSet::new());
     for (index, program) in module.programs.iter_mut().enumerate().filter(|(_, program)| shifts(program)) {
         let vacancy = Vacancy::of(program, &summaries, given.get(&index).unwrap_or(&none));
         let counts = |_: &Nc, role: Role| AXES.contains(&role) || role == Role::CycleR;
-        let look = Look { program, library: &library, absent: vacancy.absent(&counts) };
+        let own = Features::of_program(program);
+        let is_flat = !library.shapes || !called[index] && !own.any_op(is_shape);
+        let look = Look { program, library: &library, is_flat, absent: vacancy.absent(&counts) };
         let made = look.over(&|id| known.at(index, id).cloned(), &|id| facts.at(index, id));
         let Made { first: Some(first), edits, ends, obstacle } = made else { continue };
         if let Some((why, help)) = obstacle {
@@ -78,10 +85,38 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     changed
 }
 
+/// True for a code that turns, scales or mirrors coordinates.
+fn is_shape(op: Op) -> bool {
+    matches!(op, Op::RotateOn | Op::ScaleOn | Op::MirrorOn)
+}
+
+/// True where programs read what is asked.
+fn reads(programs: &[Program], is_asked: fn(&Expr) -> bool) -> bool {
+    let mut blocks = programs.iter().flat_map(|program| &program.blocks);
+    blocks.any(|block| {
+        let mut found = false;
+        block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut |e| found |= is_asked(e)));
+        block.term.kind.exprs(&mut |e| found |= is_asked(e));
+        found
+    })
+}
+
+/// True where a statement of programs is so.
+fn sets(programs: &[Program], is_so: fn(&StmtKind) -> bool) -> bool {
+    let blocks = programs.iter().flat_map(|program| &program.blocks);
+    blocks.flat_map(|block| &block.stmts).any(|stmt| is_so(&stmt.kind))
+}
+
 /// What is asked of the whole library.
 struct Library {
     drills: bool,
     compensates: bool,
+    /// True if it turns, scales or mirrors coordinates.
+    shapes: bool,
+    /// True if it reads where the probe touched.
+    touches: bool,
+    /// True if it reads or sets the shift of all work offsets, which some controls keep in one register with local ones.
+    external: bool,
     /// True if it has codes of both units.
     units: bool,
     /// True if the source's end of a run clears the shift.
@@ -92,6 +127,8 @@ struct Library {
 struct Look<'p> {
     program: &'p Program,
     library: &'p Library,
+    /// True if no block of it, and no caller, turns coordinates.
+    is_flat: bool,
     /// The blocks with a word that may not be there.
     absent: BTreeSet<(BlockId, usize)>,
 }
@@ -100,11 +137,11 @@ struct Look<'p> {
 #[derive(Default)]
 struct Made {
     /// Where its shifts begin; none if no shift but 0 is set.
-    first: Option<Vec<crate::text::Span>>,
+    first: Option<Vec<Span>>,
     /// The blocks that are written otherwise; none for one that goes.
     edits: BTreeMap<(BlockId, usize), Option<Nc>>,
     /// The ends of a run that clear a shift.
-    ends: Vec<crate::text::Span>,
+    ends: Vec<Span>,
     obstacle: Option<Obstacle>,
 }
 
@@ -112,6 +149,9 @@ impl Look<'_> {
     /// Looks at all blocks that a run comes to.
     fn over(&self, known: &dyn Fn(BlockId) -> Option<Shifted>, facts: &dyn Fn(BlockId) -> Modal) -> Made {
         let mut made = Made::default();
+        if known(BlockId(0)).is_some_and(|shifted| !shifted.is_none()) {
+            made.obstacle = Some(CALLED);
+        }
         for (id, block) in self.program.ids().zip(&self.program.blocks) {
             let Some(mut shifted) = known(id) else { continue };
             let mut state = facts(id);
@@ -133,12 +173,14 @@ impl Look<'_> {
     fn stmt(
         &self,
         place: (BlockId, usize),
-        stmt: &crate::ir::Stmt,
+        stmt: &Stmt,
         (before, state): (&Modal, &Modal),
         shifted: &Shifted,
         made: &mut Made,
     ) -> Result<(), Obstacle> {
-        if reads_touch(&stmt.kind) || !shifted.is_none() && reads_place(&stmt.kind) {
+        let mut reads = false;
+        stmt.kind.exprs(&mut |e| reads |= has_place(e));
+        if reads && !shifted.is_none() {
             return Err(READS);
         }
         let nc = match &stmt.kind {
@@ -161,6 +203,9 @@ impl Look<'_> {
         if shifted.is_none() {
             return Ok(());
         }
+        if self.library.touches && nc.has(Op::Probe) {
+            return Err(READS);
+        }
         if let Some(edited) = counted(nc, state, shifted)? {
             if self.absent.contains(&place) {
                 return Err(VACANT);
@@ -171,7 +216,7 @@ impl Look<'_> {
     }
 
     /// What must hold where a shift is set.
-    fn sets(&self, stmt: &crate::ir::Stmt, nc: &Nc, before: &Modal) -> Result<(), Obstacle> {
+    fn sets(&self, stmt: &Stmt, nc: &Nc, before: &Modal) -> Result<(), Obstacle> {
         for item in &nc.items {
             match item {
                 NcItem::Op(Op::LocalShift) => {}
@@ -188,13 +233,21 @@ impl Look<'_> {
         if self.library.units {
             return Err(UNITS);
         }
+        if self.library.external {
+            return Err(EXTERNAL);
+        }
         let off = |group, off| before.op(group) == Some(off);
         if self.library.drills && !off(Group::Cycle, Op::CycleOff)
             || self.library.compensates && !off(Group::RadiusComp, Op::RadiusOff)
         {
             return Err(IN_FORCE);
         }
-        match is_flat(before) {
+        let flat = [
+            (Group::Rotation, Op::RotateOff),
+            (Group::Scaling, Op::ScaleOff),
+            (Group::Mirror, Op::MirrorOff),
+        ];
+        match self.is_flat || flat.into_iter().all(|(group, none)| off(group, none)) {
             true => Ok(()),
             false => Err(FRAME),
         }

@@ -1,7 +1,7 @@
 //! Why a shift cannot be counted into the coordinates.
 
 use crate::canon::{Group, Op, Role, Sys};
-use crate::ir::{Expr, NcItem, StmtKind};
+use crate::ir::{Bank, Expr, NcItem, Place, StmtKind, constant_part};
 use crate::legalize::Modal;
 
 /// What is in the way, and what to do.
@@ -29,6 +29,10 @@ pub(super) const BESIDE: Obstacle =
     ("another code or word stands in its block", "give it a block of its own");
 pub(super) const SKIPPED: Obstacle =
     ("its block may be skipped", "take the / out, or write both ways after a condition");
+pub(super) const EXTERNAL: Obstacle = (
+    "the library reads or sets the shift of all work offsets, which some machines keep in one place with it",
+    "convert the programs that do by themselves",
+);
 pub(super) const UNITS: Obstacle = (
     "the library has programs in both units",
     "convert those in millimetres and those in inches by themselves",
@@ -60,12 +64,6 @@ pub(super) const VACANT: Obstacle = (
     "give the variable a value in every run",
 );
 pub(super) const POINT: Obstacle = ("a word under it counts increments", "write it with a decimal point");
-
-/// True where coordinates are neither turned, scaled nor mirrored, as far as the library says.
-pub(super) fn is_flat(state: &Modal) -> bool {
-    let on = |group, op| state.op(group) == Some(op);
-    !on(Group::Rotation, Op::RotateOn) && !on(Group::Scaling, Op::ScaleOn) && !on(Group::Mirror, Op::MirrorOn)
-}
 
 /// What is in the way of a shift in a block under it.
 pub(super) fn stands_in_way(item: &NcItem, state: &Modal) -> Option<Obstacle> {
@@ -115,42 +113,58 @@ fn op_in_way(op: Op) -> Option<Obstacle> {
     (!fine).then_some(if frame { FRAME } else { TABLE })
 }
 
-/// True for a position that the shift is in, or what it is.
+/// True for a position that the shift is in, or what it is; a computed number may be that of any.
 pub(super) fn has_place(e: &Expr) -> bool {
+    use Sys::{AxisPosition, CyclePlane, EndPosition, ExternalShift, ProbePoint, SkipPosition, WorkPosition};
+    any(e, &|e| {
+        let places =
+            [AxisPosition, CyclePlane, EndPosition, ExternalShift, ProbePoint, SkipPosition, WorkPosition];
+        match e {
+            Expr::System(state, _) => places.contains(state),
+            Expr::Indirect(bank, _) => *bank == Bank::Numbered,
+            _ => false,
+        }
+    })
+}
+
+/// True for what reads where the probe touched, which may have been under the shift.
+pub(super) fn has_touch(e: &Expr) -> bool {
+    any(e, &|e| match e {
+        Expr::System(state, _) => matches!(state, Sys::SkipPosition | Sys::ProbePoint),
+        Expr::Indirect(bank, _) => *bank == Bank::Numbered,
+        _ => false,
+    })
+}
+
+/// True for what reads the shift of all work offsets.
+pub(super) fn has_external(e: &Expr) -> bool {
+    any(e, &|e| match e {
+        Expr::System(state, _) => *state == Sys::ExternalShift,
+        Expr::Indirect(Bank::Numbered, number) => may_be_external(number),
+        _ => false,
+    })
+}
+
+/// True for a statement that sets it.
+pub(super) fn sets_external(kind: &StmtKind) -> bool {
+    match kind.target() {
+        Some(Place::System(state, _)) => *state == Sys::ExternalShift,
+        Some(Place::Indirect(Bank::Numbered, number)) => may_be_external(number),
+        _ => false,
+    }
+}
+
+/// Its numbers on controls that have it as variables start here.
+const EXTERNAL_FROM: f64 = 5200.0;
+
+/// True where a computed number starts near them, or anywhere.
+fn may_be_external(number: &Expr) -> bool {
+    constant_part(number).is_none_or(|start| (start - EXTERNAL_FROM).abs() < 20.0)
+}
+
+/// True where a part of an expression is so.
+fn any(e: &Expr, is_so: &dyn Fn(&Expr) -> bool) -> bool {
     let mut found = false;
-    e.walk(&mut |e| {
-        use Sys::{
-            AxisPosition, CyclePlane, EndPosition, ExternalShift, ProbePoint, SkipPosition, WorkPosition,
-        };
-        found |= matches!(
-            e,
-            Expr::System(
-                AxisPosition
-                    | CyclePlane
-                    | EndPosition
-                    | ExternalShift
-                    | ProbePoint
-                    | SkipPosition
-                    | WorkPosition,
-                _
-            )
-        );
-    });
+    e.walk(&mut |e| found |= is_so(e));
     found
-}
-
-/// True for a statement that reads such a position.
-pub(super) fn reads_place(kind: &StmtKind) -> bool {
-    let mut reads = false;
-    kind.exprs(&mut |e| reads |= has_place(e));
-    reads
-}
-
-/// True for one that reads where the probe touched, which may have been under the shift.
-pub(super) fn reads_touch(kind: &StmtKind) -> bool {
-    let mut reads = false;
-    kind.exprs(&mut |e| {
-        e.walk(&mut |e| reads |= matches!(e, Expr::System(Sys::SkipPosition | Sys::ProbePoint, _)));
-    });
-    reads
 }
