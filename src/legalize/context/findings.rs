@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub(super) struct Findings {
     /// With the program of each, in the order they were found. A list never grows: grown ones take twice the room.
     pub lists: Vec<Vec<(u32, Diagnostic)>>,
-    /// By program, the numbers of what was said once, in their order.
+    /// By program: the facts that something was said of, by their numbers, in order.
     said: Vec<Vec<u32>>,
     /// The number of each fact that something is said of once.
     facts: HashMap<Box<str>, u32>,

@@ -2,7 +2,7 @@
 //!
 //! Law: a move by an increment ends at the present place and the increment. So each axis of the block goes to a place that is
 //! worked out before it, under G90, and G91 comes back after it. Side conditions: G91 is in force for certain; the block has
-//! the probe move, words of linear axes and its feed alone; no block skip, no modal call; nothing turns, mirrors or shifts the
+//! the probe move, words of linear axes and its feed alone; no block skip, no modal call, no cutter compensation; nothing turns, mirrors or shifts the
 //! coordinates of the library, for then the place that the target shows may be another one. Along the axis of the tool
 //! the target must show the place of the tip.
 //! Counter-example: `G68 R45.` before it, under which X alone moves both axes.
@@ -75,12 +75,8 @@ fn shows_tip(control: &Control) -> bool {
 }
 
 fn axis_of(role: Role) -> Option<f64> {
-    match role {
-        Role::X => Some(1.0),
-        Role::Y => Some(2.0),
-        Role::Z => Some(3.0),
-        _ => None,
-    }
+    let linear = matches!(role, Role::X | Role::Y | Role::Z);
+    role.axis_number().filter(|_| linear).map(f64::from)
 }
 
 /// True for a probe move under G91 that keeps the side conditions.
@@ -95,7 +91,9 @@ fn is_probed(nc: &Nc, state: &Modal, tip: bool) -> bool {
     };
     let once =
         |role| nc.items.iter().filter(|item| matches!(item, NcItem::Word(r, _) if *r == role)).count() <= 1;
+    let beside = matches!(state.op(Group::RadiusComp), Some(Op::RadiusLeft | Op::RadiusRight));
     nc.has(Op::Probe)
+        && !beside
         && state.op(Group::Distance) == Some(Op::Incremental)
         && nc.items.iter().all(own)
         && [Role::X, Role::Y, Role::Z].into_iter().all(once)

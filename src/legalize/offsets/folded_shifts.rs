@@ -12,11 +12,12 @@ mod obstacles;
 use super::left_shifts::{AXES, is_none};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::Vacancy;
 use crate::ir::analysis::over_calls::{OverCalls, called};
 use crate::ir::{BinOp, Block, BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
+use crate::legalize::moves::increments::parts_of_unit;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use follow::{Shifted, Shifts, size};
@@ -47,8 +48,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         shapes: features.any_op(is_shape),
         units: features.op(Op::Inch) && features.op(Op::Metric),
         clears: context.source.is(CLEARS),
-        touches: reads(&module.programs, has_touch),
-        external: reads(&module.programs, has_external) || sets(&module.programs, sets_external),
+        touches: reads(&module.programs, &has_touch),
+        external: reads(&module.programs, &|e| has_external(e, context.source))
+            || sets(&module.programs, &|kind| sets_external(kind, context.source)),
     };
     let called = called(module);
     let (mut changed, none) = (false, BTreeSet::new());
@@ -57,7 +59,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         let counts = |_: &Nc, role: Role| AXES.contains(&role) || role == Role::CycleR;
         let own = Features::of_program(program);
         let is_flat = !library.shapes || !called[index] && !own.any_op(is_shape);
-        let look = Look { program, library: &library, is_flat, absent: vacancy.absent(&counts) };
+        let look = Look {
+            program,
+            library: &library,
+            source: context.source,
+            is_flat,
+            absent: vacancy.absent(&counts),
+        };
         let made = look.over(&|id| known.at(index, id).cloned(), &|id| facts.at(index, id));
         let Made { first: Some(first), edits, ends, obstacle } = made else { continue };
         if let Some((why, help)) = obstacle {
@@ -91,7 +99,7 @@ fn is_shape(op: Op) -> bool {
 }
 
 /// True where programs read what is asked.
-fn reads(programs: &[Program], is_asked: fn(&Expr) -> bool) -> bool {
+fn reads(programs: &[Program], is_asked: &dyn Fn(&Expr) -> bool) -> bool {
     let mut blocks = programs.iter().flat_map(|program| &program.blocks);
     blocks.any(|block| {
         let mut found = false;
@@ -102,7 +110,7 @@ fn reads(programs: &[Program], is_asked: fn(&Expr) -> bool) -> bool {
 }
 
 /// True where a statement of programs is so.
-fn sets(programs: &[Program], is_so: fn(&StmtKind) -> bool) -> bool {
+fn sets(programs: &[Program], is_so: &dyn Fn(&StmtKind) -> bool) -> bool {
     let blocks = programs.iter().flat_map(|program| &program.blocks);
     blocks.flat_map(|block| &block.stmts).any(|stmt| is_so(&stmt.kind))
 }
@@ -127,6 +135,7 @@ struct Library {
 struct Look<'p> {
     program: &'p Program,
     library: &'p Library,
+    source: &'p Control,
     /// True if no block of it, and no caller, turns coordinates.
     is_flat: bool,
     /// The blocks with a word that may not be there.
@@ -215,12 +224,19 @@ impl Look<'_> {
         Ok(())
     }
 
+    /// True for a size in whole increments, so that the word and what it is added to are rounded alike.
+    fn is_whole(&self, value: &Expr, before: &Modal) -> bool {
+        // Three decimals are whole in either unit.
+        let parts = parts_of_unit(before, self.source).unwrap_or(1e3);
+        size(value).is_some_and(|size| (size * parts - (size * parts).round()).abs() < 1e-6)
+    }
+
     /// What must hold where a shift is set.
     fn sets(&self, stmt: &Stmt, nc: &Nc, before: &Modal) -> Result<(), Obstacle> {
         for item in &nc.items {
             match item {
                 NcItem::Op(Op::LocalShift) => {}
-                NcItem::Word(Role::X | Role::Y | Role::Z, value) if size(value).is_some() => {}
+                NcItem::Word(Role::X | Role::Y | Role::Z, value) if self.is_whole(value, before) => {}
                 NcItem::Word(Role::X | Role::Y | Role::Z, _) => return Err(COMPUTED),
                 NcItem::Word(role, value) if AXES.contains(role) && is_none(value) => {}
                 NcItem::Word(role, _) if AXES.contains(role) => return Err(ROTARY),

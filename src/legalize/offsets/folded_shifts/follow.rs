@@ -42,15 +42,13 @@ impl Lattice for Shifted {
     }
 }
 
-/// The size that a word sets: a number, or arithmetic of numbers, in whole increments of every control, so that the word and what it is added
-/// to are rounded alike.
+/// The size that a word sets: a number, or arithmetic of numbers.
 pub(super) fn size(value: &Expr) -> Option<f64> {
     if is_none(value) {
         return Some(0.0);
     }
-    let number = worked_out(value)?;
-    let parts = number * PARTS;
-    ((parts - parts.round()).abs() < 1e-6).then(|| parts.round() / PARTS)
+    // Sums of decimals are decimals.
+    worked_out(value).map(|number| (number * 1e6).round() / 1e6)
 }
 
 /// What arithmetic of numbers comes to.
@@ -71,9 +69,6 @@ fn worked_out(e: &Expr) -> Option<f64> {
     };
     number.is_finite().then_some(number)
 }
-
-/// Parts of a unit that a shift is counted in.
-const PARTS: f64 = 1e4;
 
 fn one(number: f64) -> OneOf<u64> {
     // There are two zeros.

@@ -1,6 +1,7 @@
 //! Why a shift cannot be counted into the coordinates.
 
 use crate::canon::{Group, Op, Role, Sys};
+use crate::dialect::Control;
 use crate::ir::{Bank, Expr, NcItem, Place, StmtKind, constant_part};
 use crate::legalize::Modal;
 
@@ -21,7 +22,7 @@ pub(super) const STAYS: Obstacle =
     ("it is not known to end with the program", "end the shift (G52 X0 Y0 Z0) before the end");
 pub(super) const COMPUTED: Obstacle = (
     "its size is computed",
-    "write its size as a number of four digits after the point at the most, or add it to the coordinates by hand",
+    "write its size as a number of whole increments, or add it to the coordinates by hand",
 );
 pub(super) const ROTARY: Obstacle =
     ("it turns a rotary axis", "write the angles in the coordinates of the work offset");
@@ -137,29 +138,29 @@ pub(super) fn has_touch(e: &Expr) -> bool {
 }
 
 /// True for what reads the shift of all work offsets.
-pub(super) fn has_external(e: &Expr) -> bool {
+pub(super) fn has_external(e: &Expr, source: &Control) -> bool {
     any(e, &|e| match e {
         Expr::System(state, _) => *state == Sys::ExternalShift,
-        Expr::Indirect(Bank::Numbered, number) => may_be_external(number),
+        Expr::Indirect(Bank::Numbered, number) => may_be_external(number, source),
         _ => false,
     })
 }
 
 /// True for a statement that sets it.
-pub(super) fn sets_external(kind: &StmtKind) -> bool {
+pub(super) fn sets_external(kind: &StmtKind, source: &Control) -> bool {
     match kind.target() {
         Some(Place::System(state, _)) => *state == Sys::ExternalShift,
-        Some(Place::Indirect(Bank::Numbered, number)) => may_be_external(number),
+        Some(Place::Indirect(Bank::Numbered, number)) => may_be_external(number, source),
         _ => false,
     }
 }
 
-/// Its numbers on controls that have it as variables start here.
-const EXTERNAL_FROM: f64 = 5200.0;
-
-/// True where a computed number starts near them, or anywhere.
-fn may_be_external(number: &Expr) -> bool {
-    constant_part(number).is_none_or(|start| (start - EXTERNAL_FROM).abs() < 20.0)
+/// True where a computed number starts in its variables or right before them, or anywhere.
+fn may_be_external(number: &Expr, source: &Control) -> bool {
+    let mut runs = source.system_runs(Sys::ExternalShift).filter_map(|row| Some((row.first?, row.last()?)));
+    let near =
+        |start: f64| runs.any(|(first, last)| start + 1.0 >= f64::from(first) && start <= f64::from(last));
+    constant_part(number).is_none_or(near)
 }
 
 /// True where a part of an expression is so.

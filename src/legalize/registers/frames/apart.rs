@@ -103,7 +103,7 @@ pub(super) fn take(
     true
 }
 
-/// Makes variables that all programs see of what is taken.
+/// Turns the locals that a program takes from outside into variables that all programs see.
 pub(super) fn rename(module: &mut Module, interface: &Interface) {
     if interface.renamed.is_empty() {
         return;
