@@ -112,33 +112,18 @@ fn refuse_computed(module: &Module, context: &mut Context<'_>) {
 }
 
 fn rename(index: usize, program: &mut Program, levels: &Levels) {
-    let change = |var: &mut Var| {
+    apart::each_var(program, &|var| {
         if var.class == Class::Local {
             *var = levels.of_local(index, var.number);
         }
-    };
-    let each = |e: &mut Expr| {
-        e.walk_mut(&mut |e| {
-            if let Expr::Var(var) = e {
-                change(var);
-            }
-        });
-    };
-    for block in &mut program.blocks {
-        for stmt in &mut block.stmts {
-            stmt.kind.exprs_mut(&mut { each });
-            match &mut stmt.kind {
-                StmtKind::Assign { target: Place::Var(var), value } => {
-                    change(var);
-                    if var.class == Class::Static && *value == Expr::Vacant {
-                        *value = Expr::Number(0.0);
-                    }
-                }
-                StmtKind::Input { target: Place::Var(var), .. } => change(var),
-                _ => {}
-            }
+    });
+    for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+        if let StmtKind::Assign { target: Place::Var(var), value } = &mut stmt.kind
+            && var.class == Class::Static
+            && *value == Expr::Vacant
+        {
+            *value = Expr::Number(0.0);
         }
-        block.term.kind.exprs_mut(&mut { each });
     }
 }
 

@@ -113,13 +113,15 @@ pub(super) fn rename(module: &mut Module, interface: &Interface) {
             *var = *to;
         }
     };
-    module.programs.iter_mut().for_each(|program| each_var(program, &change));
+    for program in &mut module.programs {
+        program.held.iter_mut().for_each(|(var, _)| change(var));
+        each_var(program, &change);
+    }
     module.names.extend(interface.renamed.values().cloned());
 }
 
-/// Calls `change` on each variable that a program names.
-fn each_var(program: &mut Program, change: &dyn Fn(&mut Var)) {
-    program.held.iter_mut().for_each(|(var, _)| change(var));
+/// Calls `change` on each variable that the blocks of a program name.
+pub(super) fn each_var(program: &mut Program, change: &dyn Fn(&mut Var)) {
     let each = |e: &mut Expr| {
         e.walk_mut(&mut |e| {
             if let Expr::Var(var) = e {
