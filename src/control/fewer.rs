@@ -13,7 +13,7 @@ pub struct FewerDigits {
     digits: i32,
     /// True where what needs more is only noted, and kept whole.
     notes: bool,
-    /// True where sums, products and quotients are kept whole.
+    /// True where sums, products, quotients and exact functions are kept whole.
     functions_only: bool,
     /// Draws to which side a result is off that needs more; none rounds it.
     seed: Option<u64>,
@@ -69,7 +69,8 @@ impl FewerDigits {
         if self.side(seed) { value + value * off } else { value - value * off }
     }
 
-    /// What is kept of a sum, a product or a quotient.
+    /// What is kept of a sum, a product, a quotient, and whatever else comes to the same on all machines that calculate with
+    /// doubles.
     pub fn keep_of_operands(&self, value: f64) -> f64 {
         if self.functions_only { value } else { self.keep(value) }
     }

@@ -68,6 +68,10 @@ pub struct Scenario {
     /// True where inputs change while the program waits for them: it reads one, and nothing else happens for long.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub inputs_change: bool,
+    /// Before which look at its inputs they change, counted from 1: a look ends where something happens. None if before
+    /// none.
+    #[serde(skip)]
+    pub inputs_change_at: Option<u32>,
     /// Date, as yyyymmdd.
     pub date: f64,
     /// Time of day, as hhmmss.
@@ -178,6 +182,7 @@ impl Default for Scenario {
             answers: Vec::new(),
             state: Vec::new(),
             inputs_change: false,
+            inputs_change_at: None,
             date: 20_260_101.0,
             time: 120_000.0,
             tick_ms: 1.0,

@@ -196,7 +196,7 @@ impl Machine {
             time: scenario.time,
             cells: HashMap::new(),
             given_acts: HashMap::new(),
-            awaited: scenario.inputs_change.then(awaited::Awaited::default),
+            awaited: awaited::Awaited::of(scenario),
         };
         if !scenario.settings.is_empty() {
             let turning = lathe::settings::Turning::with(control, &scenario.settings);

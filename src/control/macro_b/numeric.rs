@@ -138,6 +138,11 @@ impl<'c> Numeric<'c> {
         self.in_range(value).map(|value| self.digits.keep(value))
     }
 
+    /// The same for a result that doubles give exactly, or rounded once.
+    fn keep_exact(&self, value: f64) -> Result<f64, Stop> {
+        self.in_range(value).map(|value| self.digits.keep_of_operands(value))
+    }
+
     /// A result that is no larger than the control takes; one that is too small is zero.
     fn in_range(&self, value: f64) -> Result<f64, Stop> {
         if value.is_nan() || value.abs() > self.answers.largest {
@@ -189,7 +194,6 @@ impl<'c> Numeric<'c> {
             _ => {}
         }
         let (a, b) = (self.number(a, trace), self.number(b, trace));
-        let whole = |result: f64| self.in_range(result).map(|value| self.digits.keep_of_operands(value));
         let result = match op {
             Add => a + b,
             Subtract => a - b,
@@ -199,10 +203,10 @@ impl<'c> Numeric<'c> {
                 return Err(Stop::alarm(self.answers.alarms.division, "division by zero"));
             }
             Divide => a / b,
-            Modulo => return self.modulo(a, b, trace).and_then(|result| self.keep(result)),
-            _ => return self.keep(self.bits(op, a, b, trace)),
+            Modulo => return self.modulo(a, b, trace).and_then(|result| self.keep_exact(result)),
+            _ => self.bits(op, a, b, trace),
         };
-        whole(result)
+        self.keep_exact(result)
     }
 
     fn equal(&self, a: Value, b: Value, trace: &mut Trace) -> bool {
@@ -315,7 +319,7 @@ impl<'c> Numeric<'c> {
             Func::Bcd => digits_to(x, 16, 10),
             _ => return Err(Stop::unnamed(format!("no rule for the function {function}"))),
         };
-        self.keep(result)
+        if is_exact(function) { self.keep_exact(result) } else { self.keep(result) }
     }
 
     /// The nearest whole number.
@@ -354,6 +358,12 @@ impl<'c> Numeric<'c> {
             _ => Err(Stop::unnamed(format!("no rule for the function {function} of two"))),
         }
     }
+}
+
+/// True for a function that has no last digit to be off by: its result stands in its argument.
+fn is_exact(function: Func) -> bool {
+    use Func::{Abs, Bcd, Bin, Fix, Fup, Round, Sign};
+    matches!(function, Abs | Round | Fix | Fup | Sign | Bin | Bcd)
 }
 
 /// Reads the digits of a whole number in one base as digits of another: BIN and BCD.

@@ -19,6 +19,7 @@ mod steered_conditions;
 mod summary;
 mod trial;
 mod unit_check;
+mod unusual;
 mod verifier;
 mod weigh;
 

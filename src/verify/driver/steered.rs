@@ -1,13 +1,15 @@
 //! Scenarios for ways that a branch has left after the search: solved for their inputs.
 
 use super::verifier::Verifier;
-use crate::control::trace::Place;
+use crate::control::scenario::Probe;
+use crate::control::trace::{EventKind, Place};
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::text::Span;
 use crate::verify::compare::is_cut;
 use crate::verify::explore::{Attempt, Circumstances, Input, Inputs, Steer, hangs_on, in_order, inputs_of};
 use crate::verify::sides::class_of;
-use std::collections::BTreeSet;
+use std::cell::Cell;
+use std::collections::BTreeMap;
 
 /// Runs for one way, and for all ways of a program.
 const FOR_ONE: usize = 120;
@@ -16,8 +18,17 @@ const FOR_ALL: usize = 1000;
 /// safe, and nothing reaches them.
 const FOR_ONE_THERE: usize = 40;
 const FOR_ALL_THERE: usize = 80;
+/// Probe moves that touch something.
+const TOUCHES: usize = 8;
+/// Inputs that are steered for one way, at the most.
+const MOST_STEERED: usize = 40;
 /// A way that a branch has left: the branch by its file and place, and the way.
 type Way = ((usize, Span), i64);
+
+/// Searches for one way, each from another start: where numbers meet because they are all 0 no small step leads elsewhere.
+const SEARCHES: usize = 3;
+/// How far from a way the searches for it began.
+type Searched = BTreeMap<Way, Vec<f64>>;
 
 /// Where searches may begin: circumstances, and how near the source and the target came to ways in them.
 struct Start {
@@ -50,46 +61,71 @@ impl Verifier<'_, '_> {
             })
             .collect();
         for (on_target, all, one) in [(false, FOR_ALL, FOR_ONE), (true, FOR_ALL_THERE, FOR_ONE_THERE)] {
-            let (mut left, mut given_up) = (all, BTreeSet::new());
+            let (mut left, mut searched) = (all, Searched::new());
             while left > 0 && self.witness.is_none() && !self.is_spent() {
-                let Some((way, from, distance)) = self.nearest(there, &mut starts, &given_up, on_target)
+                let Some((way, from, distance)) = self.nearest(there, &mut starts, &searched, on_target)
                 else {
                     break;
                 };
-                given_up.insert(way);
+                searched.entry(way).or_default().push(distance);
                 let Some(start) = starts.get(from) else { break };
                 let (begin, mut came) = (start.circumstances.clone(), Vec::new());
+                let touching = self.touching(&begin);
                 let order = inputs_of(inputs, &start.reached, &begin.scenario);
                 let place = Some(way.0).filter(|_| !on_target);
                 let order = self.in_order(order, place, &begin.scenario);
+                let values = |input: &Input| input.compared_with(inputs);
+                let is_reached = Cell::new(false);
                 let mut attempt = |circumstances: &Circumstances| {
                     left = left.saturating_sub(1);
                     let (attempt, new) = self.attempt(there, circumstances, way, on_target);
+                    is_reached.set(is_reached.get() || attempt == Attempt::Reached);
                     if new || attempt == Attempt::Reached {
                         came.push(circumstances.clone());
                     }
                     attempt
                 };
-                Steer::new(begin, distance, one.min(all), &mut attempt).run(&order);
+                Steer::new(begin, distance, one.min(all), &mut attempt).run(&order, &values);
+                if !is_reached.get()
+                    && let Some(begin) = touching
+                    && let Attempt::Near(Some(distance)) = attempt(&begin)
+                {
+                    Steer::new(begin, distance, one.min(all), &mut attempt).run(&order, &values);
+                }
                 starts.extend(came.into_iter().map(Start::new));
             }
         }
         starts.into_iter().map(|start| start.circumstances).collect()
     }
 
-    /// The inputs, those first that what stands at a place of the source hangs on. What callers give is not tried otherwise.
+    /// The inputs that what stands at a place of the source hangs on, and others. What callers give is not tried otherwise.
     pub(super) fn in_order(
         &self,
         all: Vec<Input>,
         place: Option<(usize, Span)>,
         scenario: &Scenario,
-    ) -> Vec<Input> {
+    ) -> [Vec<Input>; 2] {
         let is_given = self.given.is_known();
         let all = all.into_iter().filter(|input| *input != Input::Selected || !is_given).collect();
-        let Some((file, span)) = place else { return all };
+        let (file, span) = place.unwrap_or_default();
         let texts = &self.job.source.library.files;
-        let blocks = texts.get(file).map_or(&[][..], |file| &file.parsed.blocks);
-        in_order(all, &hangs_on(blocks, span), self.job.source.control, scenario)
+        let blocks = texts.get(file).filter(|_| place.is_some()).map_or(&[][..], |file| &file.parsed.blocks);
+        let [mut near, mut others] = in_order(all, &hangs_on(blocks, span), self.job.source.control, scenario);
+        near.truncate(MOST_STEERED);
+        others.truncate(MOST_STEERED - near.len());
+        [near, others]
+    }
+
+    /// The same circumstances where each probe move touches something on half of its way; none where one did, or where the
+    /// program probes nothing. Where it touches is one thing, where it began is another: both have to change.
+    fn touching(&self, begin: &Circumstances) -> Option<Circumstances> {
+        let probes = |run: &Run| run.events.iter().any(|event| matches!(event.what, EventKind::Probe { .. }));
+        if !begin.scenario.probes.is_empty() || !probes(&self.run_source(&begin.scenario)) {
+            return None;
+        }
+        let mut begin = begin.clone();
+        begin.scenario.probes = vec![Probe::Part(0.5); TOUCHES];
+        Some(begin)
     }
 
     /// True once its time or its steps are used up.
@@ -97,16 +133,18 @@ impl Verifier<'_, '_> {
         self.steps >= self.job.effort.all_steps || self.clock.is_up()
     }
 
-    /// The way left that a start comes nearest to, among those that were not tried.
+    /// The way left that a start comes nearest to, among those that were searched for least; and a start from which none was.
     fn nearest(
         &mut self,
         there: ProgramRef,
         starts: &mut [Start],
-        given_up: &BTreeSet<Way>,
+        searched: &Searched,
         on_target: bool,
     ) -> Option<(Way, usize, f64)> {
         let ways = if on_target { self.target_coverage.left() } else { self.coverage.left() };
-        let ways: Vec<Way> = ways.into_iter().filter(|way| !given_up.contains(way)).collect();
+        let from = |way: &Way| searched.get(way).map_or(&[][..], Vec::as_slice);
+        let mut ways: Vec<Way> = ways.into_iter().filter(|way| from(way).len() < SEARCHES).collect();
+        ways.sort_by_key(|way| from(way).len());
         if ways.is_empty() {
             return None;
         }
@@ -126,6 +164,7 @@ impl Verifier<'_, '_> {
                 let near = start.near[usize::from(on_target)].as_ref()?;
                 Some((*way, at, least(near, *way)?))
             });
+            let near = near.filter(|(_, _, distance)| !from(way).contains(distance));
             near.min_by(|a, b| a.2.total_cmp(&b.2))
         };
         ways.iter().find_map(near)

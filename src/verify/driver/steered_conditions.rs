@@ -56,7 +56,8 @@ impl Verifier<'_, '_> {
                 }
                 attempt
             };
-            Steer::new(nearest.start.clone(), nearest.distance, FOR_ONE, &mut attempt).run(&order);
+            Steer::new(nearest.start.clone(), nearest.distance, FOR_ONE, &mut attempt)
+                .run(&order, &|input| input.compared_with(inputs));
         }
         self.theirs.clear();
         came

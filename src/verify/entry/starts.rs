@@ -171,6 +171,11 @@ impl Start {
         (self.put)(&mut scenario.entry);
     }
 
+    /// The modal group of what is in force; none of the unit, and of what is no mode.
+    pub fn group(&self) -> Option<Group> {
+        self.mode.or(self.code).map(|op| op.group()).or(self.named.0)
+    }
+
     /// True for what a machine profile may say under `[start]`.
     pub fn is_stated(&self) -> bool {
         let group = self.mode.map(|mode| mode.group()).filter(|group| *group != Group::ReturnPlane);

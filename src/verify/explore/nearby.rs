@@ -65,8 +65,13 @@ fn named(variable: &VarRef) -> Option<Named> {
     }
 }
 
-/// The inputs, those first that come first in `hangs_on`.
-pub fn in_order(all: Vec<Input>, hangs_on: &[Named], control: &Control, scenario: &Scenario) -> Vec<Input> {
+/// The inputs that stand in `hangs_on`, in its order, and the others.
+pub fn in_order(
+    all: Vec<Input>,
+    hangs_on: &[Named],
+    control: &Control,
+    scenario: &Scenario,
+) -> [Vec<Input>; 2] {
     let rank = |input: &Input| {
         let is_it = |(name, number): &Named| match input {
             Input::Variable(own, _) => *own == format!("{name}{number}"),
@@ -77,8 +82,10 @@ pub fn in_order(all: Vec<Input>, hangs_on: &[Named], control: &Control, scenario
         hangs_on.iter().position(is_it).unwrap_or(usize::MAX)
     };
     let mut ranked: Vec<(usize, Input)> = all.into_iter().map(|input| (rank(&input), input)).collect();
-    ranked.sort_by_key(|(rank, _)| *rank);
-    ranked.into_iter().map(|(_, input)| input).collect()
+    // Where a probe move begins tells more than how far it gets.
+    ranked.sort_by_key(|(rank, input)| (*rank, matches!(input, Input::Probe(_))));
+    let (near, others): (Vec<_>, Vec<_>) = ranked.into_iter().partition(|(rank, _)| *rank < usize::MAX);
+    [near, others].map(|inputs| inputs.into_iter().map(|(_, input)| input).collect())
 }
 
 /// True for the input that a state of the machine is.
@@ -91,7 +98,8 @@ fn is_state(input: &Input, state: Sys, subscripts: &[u32], scenario: &Scenario) 
             let place = matches!(state, Sys::EndPosition | Sys::MachinePosition | Sys::WorkPosition);
             place && subscripts.last().is_some_and(|own| *own as usize == axis + 1)
         }
-        Input::Probe(_) => state == Sys::SkipPosition,
+        // Where a probe move ends is where the next one begins.
+        Input::Probe(_) => matches!(state, Sys::SkipPosition | Sys::EndPosition | Sys::WorkPosition),
         Input::Tool => state == Sys::ActiveTool,
         Input::Selected => Input::is_selected(state, subscripts),
         own => Input::of_cell(state, subscripts).as_ref() == Some(own),

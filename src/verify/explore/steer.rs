@@ -2,8 +2,8 @@
 //!
 //! One input after the other is changed a little. Where that brings the numbers of the condition nearer to each other, the
 //! search goes on in that direction: to where they would meet if the distance were linear, and in strides that double. If
-//! little changes tell nothing, as under FIX or in a count of digits, it tries large ones, and what nothing ever set. What
-//! it finds is tried like any scenario, so a wrong turn costs a run and nothing else.
+//! little changes tell nothing, as under FIX or in a count of digits, it tries large ones, what nothing ever set, and what
+//! the program compares an input with. What it finds is tried like any scenario, so a wrong turn costs a run and nothing else.
 
 mod outside;
 
@@ -19,6 +19,9 @@ pub enum Attempt {
     /// No more runs.
     Stop,
 }
+
+/// A distance that the last bits of two numbers make.
+const HAIR: f64 = 1e-9;
 
 /// A search from one start.
 pub struct Steer<'s> {
@@ -43,9 +46,24 @@ impl<'s> Steer<'s> {
         Self { best, distance, runs, attempt }
     }
 
-    /// Searches; whoever makes the attempts knows whether it came there.
-    pub fn run(mut self, inputs: &[Input]) {
-        while self.descend(inputs).and_then(|()| self.leap(inputs)).is_ok_and(|nearer| nearer) {}
+    /// Searches, group by group; `values` says what may be tried of an input. Whoever makes the attempts knows whether it
+    /// came there.
+    pub fn run(mut self, groups: &[Vec<Input>], values: &dyn Fn(&Input) -> Vec<f64>) {
+        loop {
+            let before = self.distance;
+            for inputs in groups {
+                loop {
+                    match self.descend(inputs).and_then(|()| self.leap(inputs, values)) {
+                        Err(Ended) => return,
+                        Ok(true) => {}
+                        Ok(false) => break,
+                    }
+                }
+            }
+            if self.distance >= before {
+                return;
+            }
+        }
     }
 
     /// Goes nearer in small steps, input by input, as long as any of them helps.
@@ -67,7 +85,7 @@ impl<'s> Steer<'s> {
     }
 
     /// Tries large changes of one input after the other. True where one of them came nearer.
-    fn leap(&mut self, inputs: &[Input]) -> Result<bool, Ended> {
+    fn leap(&mut self, inputs: &[Input], values: &dyn Fn(&Input) -> Vec<f64>) -> Result<bool, Ended> {
         let before = self.distance;
         for input in inputs {
             let from = input.get(&self.best);
@@ -77,7 +95,8 @@ impl<'s> Steer<'s> {
             let step = input.step();
             let far = [100.0, -100.0, 6.0, -6.0, 1000.0, -1000.0].map(|times| from + step * times);
             let ends = [from * 10.0, from * 1000.0, -from, 0.0];
-            for to in ends.into_iter().chain(far).filter(|to| *to != from) {
+            let all = values(input).into_iter().chain(ends).chain(far);
+            for to in all.filter(|to| *to != from) {
                 self.at(input, to)?;
                 if self.distance < before {
                     return Ok(true);
@@ -117,6 +136,12 @@ impl<'s> Steer<'s> {
             self.at(input, root.floor())?;
             self.at(input, root.ceil())?;
         }
+        // A sum of two numbers of few digits may be off by a last bit.
+        if self.distance < HAIR {
+            let met = input.get(&self.best);
+            self.at(input, met.next_up())?;
+            self.at(input, met.next_down())?;
+        }
         Ok(())
     }
 
@@ -136,6 +161,10 @@ impl<'s> Steer<'s> {
     /// Runs with another value of an input.
     fn at(&mut self, input: &Input, value: f64) -> Result<Option<f64>, Ended> {
         let Some(circumstances) = input.set(&self.best, value) else { return Ok(None) };
+        // Between two whole numbers there is none.
+        if input.get(&circumstances) == input.get(&self.best) {
+            return Ok(None);
+        }
         self.attempt(circumstances)
     }
 
@@ -187,7 +216,7 @@ mod tests {
             }
             Attempt::Near(Some(near))
         };
-        Steer::new(first, far, 200, &mut attempt).run(&variables(&names));
+        Steer::new(first, far, 200, &mut attempt).run(&[variables(&names)], &|_| Vec::new());
         found
     }
 

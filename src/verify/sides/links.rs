@@ -347,6 +347,29 @@ fn calls<'s>(side: &'s ProgramTexts<'_>, items: &'s [Item]) -> impl Iterator<Ite
         }
         let is_number = word.letter == 'P' && number.value >= 1.0 && number.value.fract() == 0.0;
         // A float outside the range becomes its nearest end.
-        is_number.then(|| side.numbered(number.value as u32)).flatten()
+        let called = || side.numbered(number.value as u32).filter(|_| may_name_program(side, items));
+        is_number.then(called).flatten()
     })
+}
+
+/// False for a block in which P is known to be something else than the number of a program: a time, a block, a row of offsets.
+fn may_name_program(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
+    let codes = words(items).filter(|word| matches!(word.letter, 'G' | 'M'));
+    let mut has_other = false;
+    for word in codes {
+        let Some(head) = number(word).and_then(|number| CodeHead::new(word.letter, number)) else { return true };
+        let mut is_known = false;
+        for row in side.control.rows_of(head) {
+            let role = row.words.get("P").copied();
+            if role == Some(Role::Program) || matches!(row.op, Op::Builder | Op::Act) {
+                return true;
+            }
+            is_known = true;
+            has_other |= role.is_some();
+        }
+        if !is_known {
+            return true;
+        }
+    }
+    !has_other
 }

@@ -44,10 +44,12 @@ pub enum Input {
     Day,
 }
 
-/// Answers and probe moves that are steered.
+/// Answers that are steered.
 const FIRST: usize = 4;
-/// Inputs that are steered, at the most.
-const MOST_INPUTS: usize = 40;
+/// Probe moves that are steered.
+const PROBES: usize = 8;
+/// Inputs that are looked at, at the most.
+const MOST_INPUTS: usize = 400;
 /// The code of the first work offset, on every control that has such codes.
 const FIRST_OFFSET: f64 = 54.0;
 /// The letter T, counted from A as 1.
@@ -72,7 +74,7 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
     let cells = inputs.cells.keys().filter_map(|(state, subscripts)| Input::of_cell(*state, subscripts));
     let state = (0..scenario.state.len()).map(Input::State);
     let answers = (0..if inputs.asks { FIRST.min(scenario.answers.len()) } else { 0 }).map(Input::Answer);
-    let probes = (0..FIRST.min(scenario.probes.len())).map(Input::Probe);
+    let probes = (0..PROBES).map(Input::Probe);
     // Rotary axes stand anywhere as in other scenarios, unless conversions hold for those that stand at 0.
     let turned = (3..6).filter(|axis| !inputs.turns_by_sign && inputs.rotary[axis - 3]);
     let start = turned.chain(0..3).map(Input::Start);
@@ -84,10 +86,10 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
         .chain(state)
         .chain(probes)
         .chain(start)
-        .take(2 * MOST_INPUTS);
+        .take(MOST_INPUTS);
     let mut once: Vec<Input> = Vec::new();
     for input in all {
-        if once.len() < MOST_INPUTS && !once.contains(&input) {
+        if !once.contains(&input) {
             once.push(input);
         }
     }
@@ -113,6 +115,14 @@ impl Input {
         }
     }
 
+    /// The numbers that the program compares it with, and their neighbours.
+    pub fn compared_with(&self, inputs: &Inputs) -> Vec<f64> {
+        let Input::Variable(name, theirs) = self else { return Vec::new() };
+        let own = inputs.variables.iter().find(|input| input.name == *name && input.theirs == *theirs);
+        own.map_or_else(Vec::new, |input| input.values.clone())
+    }
+
+    /// What it is.
     pub fn get(&self, from: &Circumstances) -> f64 {
         let Circumstances { scenario, theirs } = from;
         let found = match self {
@@ -161,6 +171,8 @@ impl Input {
             Input::Length(number) => scenario.tools.entry(*number).or_default().length = value,
             Input::Radius(number) => scenario.tools.entry(*number).or_default().radius = value.abs(),
             Input::Probe(at) => {
+                // After the last one all miss.
+                scenario.probes.resize((at + 1).max(scenario.probes.len()), Probe::Miss);
                 *scenario.probes.get_mut(*at)? =
                     if (0.0..=1.0).contains(&value) { Probe::Part(value) } else { Probe::Miss };
             }

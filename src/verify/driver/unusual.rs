@@ -1,0 +1,86 @@
+//! Ways that a program goes only in circumstances that its library never shows: an input that changes between two looks at
+//! it, or a mode that the program asks for and that none of its callers leaves in force.
+//!
+//! What both sides do alike then is compared as anything else is. A difference is not held against the conversion, for it
+//! was made for a machine that is never so: the way stays one that was not reached.
+
+use super::verifier::{Pair, Verifier};
+use crate::canon::{Group, Sys};
+use crate::control::{ProgramRef, Scenario};
+use crate::verify::compare::is_cut;
+use crate::verify::entry::{Start, starts};
+use crate::verify::explore::{Circumstances, Inputs};
+
+/// Circumstances from which it is tried, at the most.
+const STARTS: usize = 24;
+
+/// Looks at inputs before which they change.
+const LOOKS: std::ops::RangeInclusive<u32> = 2..=4;
+
+/// One thing that is as it never is.
+enum Unusual {
+    /// Inputs change before this look at them.
+    InputsChange(u32),
+    /// The other unit is in force.
+    Unit,
+    /// Another mode is in force.
+    Mode(&'static Start),
+}
+
+impl Verifier<'_, '_> {
+    /// Tries circumstances once more with each of these, as long as ways are left.
+    pub(super) fn try_unusual(&mut self, there: ProgramRef, found: &Inputs, tried: &[Circumstances]) {
+        for unusual in self.unusual(found) {
+            // Those that came last went ways that the first did not.
+            for start in tried.iter().rev().take(STARTS) {
+                if self.went_every_way() || self.witness.is_some() || self.is_spent() {
+                    break;
+                }
+                self.theirs = start.theirs.clone();
+                self.try_one(&unusual, Scenario { nearness: false, ..start.scenario.clone() }, there);
+            }
+        }
+    }
+
+    /// What the program asks for that may be so.
+    fn unusual(&self, found: &Inputs) -> Vec<Unusual> {
+        let reads = |wanted: &dyn Fn(Sys) -> bool| found.cells.keys().any(|(state, _)| wanted(*state));
+        let asks = |group: Group| {
+            let of_group = |subscripts: &[u32]| group.number().is_some_and(|number| *subscripts == [number]);
+            found.cells.keys().any(|(state, subscripts)| *state == Sys::Modal && of_group(subscripts))
+        };
+        let changes = LOOKS.filter(|_| reads(&|state| matches!(state, Sys::Input | Sys::InputInverted)));
+        let unit = asks(Group::Units).then_some(Unusual::Unit);
+        let modes = if reads(&|state| state == Sys::Modal) { starts(self.job, self.program) } else { Vec::new() };
+        let asked = modes.into_iter().filter(|start| start.group().is_some_and(asks));
+        changes.map(Unusual::InputsChange).chain(unit).chain(asked.map(Unusual::Mode)).collect()
+    }
+
+    /// Runs both sides so. The ways that they go count if they do the same.
+    fn try_one(&mut self, unusual: &Unusual, mut scenario: Scenario, there: ProgramRef) {
+        let given = self.given.clone();
+        match unusual {
+            Unusual::InputsChange(look) => scenario.inputs_change_at = Some(*look),
+            Unusual::Unit => {
+                let inch = !given.inch().or(scenario.inch).unwrap_or(false);
+                scenario.inch = Some(inch);
+                self.given = given.in_unit(inch);
+            }
+            Unusual::Mode(start) => {
+                start.put(&mut scenario);
+                scenario.as_stated.retain(|group| Some(*group) != start.group());
+            }
+        }
+        let run = self.run_source(&scenario);
+        let circumstances = self.circumstances(&scenario, &run);
+        self.given = given;
+        let other = self.job.target.run(there, &circumstances);
+        self.steps += run.steps + other.steps;
+        let pair =
+            Pair { scenario: &scenario, run: &run, there, circumstances: &circumstances, other: &other };
+        if !is_cut(&run) && !is_cut(&other) && self.fault(&pair).is_ok() {
+            self.coverage.add(&run);
+            self.target_coverage.add(&other);
+        }
+    }
+}
