@@ -182,8 +182,7 @@ impl Verifier<'_, '_> {
         let found = match fault {
             Ok(()) if is_part => Found::Same,
             Ok(()) => {
-                self.coverage.add(&run);
-                self.target_coverage.add(&other);
+                self.went_alike(&pair);
                 Found::Same
             }
             Err(None) => Found::Nothing,

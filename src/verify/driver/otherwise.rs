@@ -46,10 +46,7 @@ impl Verifier<'_, '_> {
         }
         let pair = Pair { scenario, run: &run, there, circumstances: &circumstances, other: &other };
         match self.fault(&pair) {
-            Ok(()) => {
-                self.coverage.add(&run);
-                self.target_coverage.add(&other);
-            }
+            Ok(()) => self.went_alike(&pair),
             Err(Some(difference)) => self.witnessed(&pair, &difference),
             Err(None) => {}
         }

@@ -130,9 +130,7 @@ impl Verifier<'_, '_> {
             starts = self.steer(there, &found, starts);
         }
         let came = self.steer_to_conditions(there, &found, &starts);
-        if !settled.is_known() {
-            self.try_unusual(there, &found, &starts);
-        }
+        self.try_unusual(there, &found, &starts);
         // What stands after such a condition was cut off until then.
         if !came.is_empty() && !self.went_every_way() && !settled.is_known() {
             self.steer(there, &found, came);

@@ -110,7 +110,8 @@ impl Verifier<'_, '_> {
         let (file, span) = place.unwrap_or_default();
         let texts = &self.job.source.library.files;
         let blocks = texts.get(file).filter(|_| place.is_some()).map_or(&[][..], |file| &file.parsed.blocks);
-        let [mut near, mut others] = in_order(all, &hangs_on(blocks, span), self.job.source.control, scenario);
+        let [mut near, mut others] =
+            in_order(all, &hangs_on(blocks, span), self.job.source.control, scenario);
         near.truncate(MOST_STEERED);
         others.truncate(MOST_STEERED - near.len());
         [near, others]

@@ -6,10 +6,36 @@ use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::dialect::Side as Of;
 use crate::verify::certificate::{Moment, OpenFact, Why};
 use crate::verify::compare::{Difference, compare, is_cut, writes_elsewhere};
-use crate::verify::sides::Job;
+use crate::verify::sides::{Job, Side};
 use crate::verify::triage::{ROUNDS, excuse, facts, told_substitutes, tried};
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 impl Verifier<'_, '_> {
+    /// Keeps what a run rested on that nobody confirmed; where it did, of what the conversion did not report.
+    fn hear_doubts(&mut self, (of, library, run): (Of, &Side<'_>, &Run), assumed: &BTreeSet<Arc<str>>) {
+        for event in &run.events {
+            if let EventKind::Unsure { fact } = &event.what {
+                let is_new = !assumed.contains(fact.as_str());
+                let kept = self.unconfirmed.entry(fact.clone()).or_default();
+                if is_new && kept.iter().all(|open| open.side != of) {
+                    kept.push(OpenFact::new(fact, of, &Moment::of(library, run, event)));
+                }
+            }
+        }
+    }
+
+    /// Takes in the ways of a pair that did the same.
+    pub(super) fn went_alike(&mut self, pair: &Pair<'_>) {
+        let new = self.coverage.add(pair.run);
+        if self.target_coverage.add(pair.other) || new {
+            let Job { source, target, .. } = self.job;
+            let assumed = facts(self.job, pair.run);
+            self.hear_doubts((Of::Source, source, pair.run), &assumed);
+            self.hear_doubts((Of::Target, target, pair.other), &assumed);
+        }
+    }
+
     /// Compares the runs of a scenario. True where the target's went a new way.
     pub(super) fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) -> bool {
         let Job { source, target, names, .. } = self.job;
@@ -31,15 +57,7 @@ impl Verifier<'_, '_> {
                 }
                 End::Ended | End::Alarm { .. } => {}
             }
-            for event in &library_run.events {
-                if let EventKind::Unsure { fact } = &event.what {
-                    let is_new = !assumed.contains(fact.as_str());
-                    let kept = self.unconfirmed.entry(fact.clone()).or_default();
-                    if is_new && kept.iter().all(|open| open.side != of) {
-                        kept.push(OpenFact::new(fact, of, &Moment::of(library, library_run, event)));
-                    }
-                }
-            }
+            self.hear_doubts((of, library, library_run), &assumed);
         }
         let found = compare((source, run), (target, &other), names, self.tolerance);
         self.largest = self.largest.max(found.largest);

@@ -51,7 +51,8 @@ impl Verifier<'_, '_> {
         };
         let changes = LOOKS.filter(|_| reads(&|state| matches!(state, Sys::Input | Sys::InputInverted)));
         let unit = asks(Group::Units).then_some(Unusual::Unit);
-        let modes = if reads(&|state| state == Sys::Modal) { starts(self.job, self.program) } else { Vec::new() };
+        let modes =
+            if reads(&|state| state == Sys::Modal) { starts(self.job, self.program) } else { Vec::new() };
         let asked = modes.into_iter().filter(|start| start.group().is_some_and(asks));
         changes.map(Unusual::InputsChange).chain(unit).chain(asked.map(Unusual::Mode)).collect()
     }
@@ -79,8 +80,7 @@ impl Verifier<'_, '_> {
         let pair =
             Pair { scenario: &scenario, run: &run, there, circumstances: &circumstances, other: &other };
         if !is_cut(&run) && !is_cut(&other) && self.fault(&pair).is_ok() {
-            self.coverage.add(&run);
-            self.target_coverage.add(&other);
+            self.went_alike(&pair);
         }
     }
 }

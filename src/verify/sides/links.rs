@@ -357,7 +357,9 @@ fn may_name_program(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
     let codes = words(items).filter(|word| matches!(word.letter, 'G' | 'M'));
     let mut has_other = false;
     for word in codes {
-        let Some(head) = number(word).and_then(|number| CodeHead::new(word.letter, number)) else { return true };
+        let Some(head) = number(word).and_then(|number| CodeHead::new(word.letter, number)) else {
+            return true;
+        };
         let mut is_known = false;
         for row in side.control.rows_of(head) {
             let role = row.words.get("P").copied();

@@ -51,6 +51,20 @@ fn a_program_that_calls_itself_is_not_one_that_others_call() {
     });
 }
 
+/// P is a time, a block, or a row of offsets beside such codes.
+#[test]
+fn a_number_that_names_no_program() {
+    let haas = Control::plain("haas").unwrap();
+    on(&haas, "O1\nG4 P2\nM97 P2\nG10 L2 P2 X0\nN2 M99\nO2\nM99\n", |side| {
+        assert!(!side.links().is_called(nth(1)))
+    });
+    for call in ["M98 P2", "G65 P2", "M777 P2", "P2", "G4 P2 M98"] {
+        on(&haas, &format!("O1\n{call}\nM30\nO2\nM99\n"), |side| {
+            assert!(side.links().is_called(nth(1)), "{call}");
+        });
+    }
+}
+
 /// A program that parameters make a code call is no main program.
 #[test]
 fn what_a_code_calls_is_called() {

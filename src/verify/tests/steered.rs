@@ -54,6 +54,38 @@ fn what_is_measured() {
     hides("fanuc", offsets, ("N9G0X2.", "N9G0X3."));
 }
 
+/// Where a probe move begins and how far it gets must both be another than at first.
+#[test]
+fn what_is_measured_above_a_place() {
+    let text = "O1\nG21G90G54G17G94\nIF[#500LT500]GOTO8\nG31Z#500F100.\nIF[#5003GT#500]GOTO9\nG0X2.\nM30\nN8G0X1.\nM30\n\
+                N9G0X3.\nM30\n";
+    hides("fanuc", text, ("N9G0X3.", "N9G0X4."));
+}
+
+/// Numbers that are all 0 meet in every condition, and no small step leads away from there.
+#[test]
+fn what_meets_where_nothing_is_set() {
+    let text = "O1\nG21G90G54G17G94\nG31X#500F100.\n#10=ABS[#5061-#500]\nIF[#10LT#501]GOTO8\n#10=ABS[#5061-#502]\n\
+                IF[#10LT#501]GOTO9\nG0X2.\nM30\nN8G0X1.\nM30\nN9G0X3.\nM30\n";
+    hides("haas", text, ("N9G0X3.", "N9G0X4."));
+}
+
+/// 0.96+1.3 is not the double next to 2.26.
+#[test]
+fn a_sum_that_is_met_to_its_last_bit() {
+    let text =
+        "O1\nG21G90G54G17G94\n#1=0.96+1.3\nIF[#500LT1]GOTO8\nIF[#500EQ#1]GOTO9\nG0X2.\nN8M30\nN9G0X3.\nM30\n";
+    hides("haas", text, ("N9G0X3.", "N9G0X4."));
+}
+
+/// What the program makes of a number has a gap: 1 to 53 become 101 to 153.
+#[test]
+fn what_lies_past_a_gap() {
+    let text = "O1\nG21G90G54G17G94\n#1=#500\nIF[#1LT1]GOTO8\nIF[#1GE54]GOTO2\n#1=#1+100\nN2IF[#501LT-7777.5]GOTO3\nGOTO8\n\
+                N3IF[#1GT100]GOTO4\nG0X2.\nM30\nN4G0X3.\nM30\nN8G0X1.\nM30\n";
+    hides("fanuc", text, ("G0X2.", "G0X4."));
+}
+
 /// What no small change shows: a part of the time of day, a count of digits, the day.
 #[test]
 fn what_only_large_changes_show() {

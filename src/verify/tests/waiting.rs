@@ -63,3 +63,26 @@ fn a_limit_of_a_wait_is_reached() {
     assert_eq!(found(text, text), Outcome::Same);
     assert_eq!(found(text, &text.replace("NO PART", "PART")), Outcome::Different);
 }
+
+/// A way that an input must change for between two looks, in the midst of the program: what is alike there is compared, and
+/// what differs leaves the way open.
+#[test]
+fn an_input_that_comes_on_after_something_was_done() {
+    let text = "IF[#1005EQ1]GOTO2\nM8\nG4P500\nIF[#1005EQ1]GOTO3\n#3000=1(NO PART)\nN3G0X30.\nN2G0X20.\n";
+    assert_eq!(found(text, text), Outcome::Same);
+    assert_eq!(found(text, &text.replace("X30.", "X31.")), Outcome::Undecided);
+}
+
+/// A mode that the program asks for, and that its only caller never leaves in force.
+#[test]
+fn a_mode_that_no_caller_gives() {
+    let text = |x: &str| {
+        format!("O1\nG21G90G17G94G54G80\nM98P2\nM30\nO2\nIF[#4003EQ90]GOTO5\nG0X{x}.\nM99\nN5G0X1.\nM99\n")
+    };
+    let outcome = |x: &str| {
+        let found = programs(("fanuc", &text("5")), ("fanuc", &text(x)), &[]).remove(1);
+        (found.outcome, found.not_reached.len())
+    };
+    assert_eq!(outcome("5"), (Outcome::Same, 0));
+    assert_eq!(outcome("6"), (Outcome::Undecided, 1));
+}
