@@ -69,6 +69,8 @@ pub enum Predicate {
     Main,
     /// This tool is in the spindle when the program starts.
     Loaded(u32),
+    /// This variable of the source holds this number when the program starts: its callers have set it.
+    Holds(Arc<str>, f64),
     /// A setting of the target has this value, in the unit of its control.
     Setting(Arc<str>, f64),
     /// The arcs of these blocks pass at most half a turn.
@@ -113,6 +115,7 @@ impl Predicate {
             Self::Start(_) => "start",
             Self::Main => "main",
             Self::Loaded(_) => "tool",
+            Self::Holds(..) => "variable",
             Self::Setting(..) => "setting",
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
@@ -135,7 +138,7 @@ impl Predicate {
     /// True where runs show whether it holds. Runs take facts, the unit and the tool to be as it says.
     pub fn is_seen(&self) -> bool {
         let set = matches!(self, Self::Fact(_) | Self::Unit | Self::Start(_) | Self::Main | Self::Loaded(_))
-            || matches!(self, Self::Setting(..));
+            || matches!(self, Self::Setting(..) | Self::Holds(..));
         !set && !self.is_accepted()
     }
 
@@ -163,6 +166,7 @@ impl Predicate {
             | Self::Start(_)
             | Self::Main
             | Self::Loaded(_)
+            | Self::Holds(..)
             | Self::Setting(..)
             | Self::Pecks(_) => Vec::new(),
             Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) | Self::Unseen => {

@@ -266,7 +266,10 @@ fn is_one(one: &Control, other: &Control) -> bool {
 fn danger(finding: &Diagnostic) -> usize {
     match (finding.assumes.as_deref(), finding.code) {
         (Some(Predicate::Unit | Predicate::Start(_)), _) => 0,
-        (Some(Predicate::Loaded(_) | Predicate::Tools(_) | Predicate::Setting(..)), _) => 1,
+        (
+            Some(Predicate::Loaded(_) | Predicate::Holds(..) | Predicate::Tools(_) | Predicate::Setting(..)),
+            _,
+        ) => 1,
         (Some(Predicate::ShortArcs(_) | Predicate::ArcEnds(_) | Predicate::Pecks(_)), _) => 2,
         (Some(Predicate::Codes { .. } | Predicate::Subscripts(_) | Predicate::Arguments { .. }), _) => 3,
         (Some(Predicate::Main | Predicate::Nesting { .. } | Predicate::Alarms(_)), _) => 4,

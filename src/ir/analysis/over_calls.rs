@@ -23,6 +23,9 @@ pub trait Follow {
 
     /// What is known after something that the library does not have has run.
     fn lose(&self, known: &mut Self::Known);
+
+    /// What a caller knows after a call of the library, beyond what its callee leaves whoever calls it.
+    fn returned(&self, _program: usize, _call: &Call, _before: &Self::Known, _after: &mut Self::Known) {}
 }
 
 /// What is known at a place; none if no run reaches it.
@@ -78,7 +81,13 @@ impl<F: Follow> Analysis for Rules<'_, F> {
         self.follow.stmts((self.index, id), block, known);
         if let TermKind::Call { call, .. } = &block.term.kind {
             match self.entry(call) {
-                Some(entry) => state.0 = self.exits.get(&entry).cloned(),
+                Some(entry) => {
+                    let after = self.exits.get(&entry).cloned();
+                    let before = std::mem::replace(&mut state.0, after);
+                    if let (Some(before), Some(after)) = (before, &mut state.0) {
+                        self.follow.returned(self.index, call, &before, after);
+                    }
+                }
                 None => self.follow.lose(known),
             }
         }

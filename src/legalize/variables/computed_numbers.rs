@@ -11,6 +11,7 @@ mod alike;
 mod found;
 mod meaning;
 mod numbers;
+mod shared;
 mod shift;
 mod written;
 
@@ -18,7 +19,7 @@ use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
 use crate::ir::analysis::{self, Assigned, Ranges, Summaries, Values};
-use crate::ir::{Bank, Expr, Module, Program, constant_part};
+use crate::ir::{Bank, Expr, Module, Program, Var, constant_part};
 use crate::legalize::Context;
 use crate::legalize::by_program::look_with;
 use crate::legalize::variables::banks::{all_numbers, each_index};
@@ -26,8 +27,10 @@ use crate::legalize::variables::state::additional;
 use crate::text::Span;
 use found::Found;
 use numbers::{Numbers, Table};
+use shared::Shared;
 use shift::shift;
 use std::cell::LazyCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 pub(in crate::legalize) use written::Written;
 
@@ -69,14 +72,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let summaries = &*summaries;
     // That none is in force is asked where it is read which is.
     let standard = !additional::may_select(module, context);
-    let look = |numbers: &mut Numbers<'_>, _: usize, program: &Program| {
-        Looked::at(program, summaries, standard, numbers)
+    let shared = Shared::of(module, summaries);
+    let look = |numbers: &mut Numbers<'_>, index: usize, program: &Program| {
+        Looked::at((index, program), summaries, (standard, &shared), numbers)
     };
     let all = look_with(module, numbers, look);
     let mut reached = Reached { table: table.clone(), ..Reached::default() };
     let mut moving: Vec<usize> = Vec::new();
     for (index, looked) in all.into_iter().enumerate() {
         looked.tell(index, context);
+        looked.rests.iter().for_each(|(var, span)| shared.tell(index, *span, *var, context));
         reached.sure.join(&looked.sure);
         reached.open.extend(looked.open.into_iter().map(|found| (index, found)));
         moving.extend(looked.moves.then_some(index));
@@ -95,12 +100,19 @@ struct Looked {
     open: Vec<Found>,
     /// All that is known of any, with its place.
     known: Vec<(Finding, Span)>,
+    /// The shared variables that it rests on, with the first place of each.
+    rests: BTreeMap<Var, Span>,
     /// True where the target has some elsewhere.
     moves: bool,
 }
 
 impl Looked {
-    fn at(program: &Program, summaries: &Summaries, standard: bool, numbers: &mut Numbers<'_>) -> Self {
+    fn at(
+        (index, program): (usize, &Program),
+        summaries: &Summaries,
+        (standard, shared): (bool, &Shared),
+        numbers: &mut Numbers<'_>,
+    ) -> Self {
         let mut looked = Self::default();
         let ranges = LazyCell::new(|| Ranges::of_offsets(program, summaries, standard));
         let assigned = Assigned::new(program, summaries);
@@ -123,7 +135,11 @@ impl Looked {
                 Some(constants) => (constants, true),
                 None if looked_up > MOST_LOOKED_UP => (Values::ANY.numbers(), false),
                 None => {
-                    let values = ranges.at(id, at, number);
+                    let mut rests = BTreeSet::new();
+                    let other = |var: Var| ranges.at(id, at, &Expr::Var(var));
+                    let held = shared.number((index, id, at), number, &other, &mut rests);
+                    rests.into_iter().for_each(|var| _ = looked.rests.entry(var).or_insert(span));
+                    let values = held.unwrap_or_else(|| ranges.at(id, at, number));
                     (values.numbers(), matches!(values, Values::Few(_)))
                 }
             };

@@ -56,6 +56,7 @@ impl Verifier<'_, '_> {
             Predicate::Loaded(tool) => Some(tool),
             _ => None,
         });
+        let held = self.held();
         let settings = self.settings();
         let as_stated = self.job.as_stated(self.program);
         let is_input = |(state, _): &(Sys, Vec<u32>)| matches!(state, Sys::Input | Sys::InputInverted);
@@ -75,6 +76,7 @@ impl Verifier<'_, '_> {
             scenario.tool = loaded.unwrap_or(scenario.tool);
             at_reference(&mut scenario, target);
             self.given.start(&mut scenario);
+            scenario.variables.extend(held.clone());
             scenario.as_stated = as_stated.clone();
             scenario.settings.clone_from(&settings);
             self.theirs = proposals.theirs().clone();
@@ -184,6 +186,16 @@ impl Verifier<'_, '_> {
     /// True where neither side has ways left.
     pub(super) fn went_every_way(&self) -> bool {
         self.coverage.is_complete() && self.target_coverage.is_complete()
+    }
+
+    /// The variables that the program's callers are known to have set, and what they hold.
+    fn held(&self) -> BTreeMap<String, f64> {
+        let assumed = self.job.assumptions.get(&self.program).into_iter().flatten();
+        let held = assumed.filter_map(|one| match &one.predicate {
+            Predicate::Holds(name, value) => Some((name.to_string(), *value)),
+            _ => None,
+        });
+        held.collect()
     }
 
     /// What the target's settings are supposed to be: while this program runs, and so what it calls.

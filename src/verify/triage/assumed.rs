@@ -129,6 +129,7 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         | Predicate::Start(_)
         | Predicate::Main
         | Predicate::Loaded(_)
+        | Predicate::Holds(..)
         | Predicate::Setting(..) => Held::Kept,
         // Those of one block are looked at together.
         Predicate::Substitute(_) | Predicate::Unseen | Predicate::Subscripts(_) => Held::Untried,
@@ -164,6 +165,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Start(_)
         | Predicate::Main
         | Predicate::Loaded(_)
+        | Predicate::Holds(..)
         | Predicate::Setting(..)
         | Predicate::ShortArcs(_)
         | Predicate::ArcEnds(_)

@@ -25,7 +25,7 @@ pub(super) fn in_whole_words(program: &Program) -> BTreeSet<Var> {
 }
 
 /// The variables in computed numbers.
-pub(super) fn in_numbers(program: &Program) -> BTreeSet<Var> {
+pub(in crate::ir::analysis) fn in_numbers(program: &Program) -> BTreeSet<Var> {
     let mut found = VarSet::default();
     for block in &program.blocks {
         let mut note = |e: &Expr| {

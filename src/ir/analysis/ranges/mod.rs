@@ -28,7 +28,8 @@ use super::text_ends::is_final;
 use super::{Cfg, VarSet};
 use crate::canon::{Group, Sys};
 use crate::ir::{Bank, Block, BlockId, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
-use followed::{followed, in_codes, in_numbers, in_whole_words, stops, told_of};
+pub(super) use followed::in_numbers;
+use followed::{followed, in_codes, in_whole_words, stops, told_of};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -318,7 +319,7 @@ fn selected(state: Sys, subscripts: &[Expr]) -> Values {
 pub const LAST_P: f64 = 16.0;
 
 /// The literals that are assigned before anything can branch, by block and statement.
-fn head_literals(program: &Program) -> Vec<(BlockId, usize, Var)> {
+pub(super) fn head_literals(program: &Program) -> Vec<(BlockId, usize, Var)> {
     let (mut found, mut seen, mut next) = (Vec::new(), BTreeSet::new(), Some(BlockId(0)));
     while let Some(id) = next.take().filter(|id| seen.insert(*id)) {
         let Some(block) = program.block(id) else { break };
