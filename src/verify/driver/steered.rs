@@ -201,7 +201,8 @@ impl Verifier<'_, '_> {
         let run = self.run_source(&circumstances.scenario);
         self.tried += 1;
         self.steps += run.steps;
-        let new = self.coverage.add(&run);
+        // What is not held against the conversion counts only where both sides do the same.
+        let new = if self.is_unusual { self.coverage.has_new(&run) } else { self.coverage.add(&run) };
         let (near, went) = if on_target {
             let other = self.job.target.run(there, &self.circumstances(&circumstances.scenario, &run));
             self.steps += other.steps;
@@ -209,6 +210,11 @@ impl Verifier<'_, '_> {
         } else {
             (least(&all_near(&run), way), goes(&run, way))
         };
+        if self.is_unusual {
+            let counts = (new || went) && self.goes_alike(&circumstances.scenario, &run, there);
+            let attempt = if went && counts { Attempt::Reached } else { Attempt::Near(near) };
+            return (attempt, new && counts);
+        }
         if new || went {
             let new_there = self.compare(&circumstances.scenario, &run, there);
             let scenario = Scenario { nearness: false, ..circumstances.scenario.clone() };

@@ -6,10 +6,11 @@
 
 use super::verifier::{Pair, Verifier};
 use crate::canon::{Group, Sys};
-use crate::control::{ProgramRef, Scenario};
+use crate::control::{ProgramRef, Run, Scenario};
 use crate::verify::compare::is_cut;
 use crate::verify::entry::{Start, starts};
 use crate::verify::explore::{Circumstances, Inputs};
+use crate::verify::sides::EntryState;
 
 /// Circumstances from which it is tried, at the most.
 const STARTS: usize = 24;
@@ -28,18 +29,34 @@ enum Unusual {
 }
 
 impl Verifier<'_, '_> {
-    /// Tries circumstances once more with each of these, as long as ways are left.
+    /// Tries circumstances once more with each of these, as long as ways are left, and goes on from those that lead further.
     pub(super) fn try_unusual(&mut self, there: ProgramRef, found: &Inputs, tried: &[Circumstances]) {
+        self.is_unusual = true;
         for unusual in self.unusual(found) {
+            let given = self.given.clone();
+            let mut came = Vec::new();
             // Those that came last went ways that the first did not.
             for start in tried.iter().rev().take(STARTS) {
                 if self.went_every_way() || self.witness.is_some() || self.is_spent() {
                     break;
                 }
+                let mut start = start.clone();
+                start.scenario.nearness = false;
                 self.theirs = start.theirs.clone();
-                self.try_one(&unusual, Scenario { nearness: false, ..start.scenario.clone() }, there);
+                self.put(&unusual, &given, &mut start.scenario);
+                let run = self.run_source(&start.scenario);
+                self.steps += run.steps;
+                let new = self.coverage.has_new(&run);
+                if self.goes_alike(&start.scenario, &run, there) && new {
+                    came.push(start);
+                }
             }
+            if !came.is_empty() && !self.went_every_way() {
+                self.steer(there, found, came);
+            }
+            self.given = given;
         }
+        self.is_unusual = false;
     }
 
     /// What the program asks for that may be so.
@@ -57,9 +74,8 @@ impl Verifier<'_, '_> {
         changes.map(Unusual::InputsChange).chain(unit).chain(asked.map(Unusual::Mode)).collect()
     }
 
-    /// Runs both sides so. The ways that they go count if they do the same.
-    fn try_one(&mut self, unusual: &Unusual, mut scenario: Scenario, there: ProgramRef) {
-        let given = self.given.clone();
+    /// Has one thing so in a scenario.
+    fn put(&mut self, unusual: &Unusual, given: &EntryState, scenario: &mut Scenario) {
         match unusual {
             Unusual::InputsChange(look) => scenario.inputs_change_at = Some(*look),
             Unusual::Unit => {
@@ -68,19 +84,22 @@ impl Verifier<'_, '_> {
                 self.given = given.in_unit(inch);
             }
             Unusual::Mode(start) => {
-                start.put(&mut scenario);
+                start.put(scenario);
                 scenario.as_stated.retain(|group| Some(*group) != start.group());
             }
         }
-        let run = self.run_source(&scenario);
-        let circumstances = self.circumstances(&scenario, &run);
-        self.given = given;
+    }
+
+    /// Runs the target too. The ways that both go count if they do the same.
+    pub(super) fn goes_alike(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) -> bool {
+        let circumstances = self.circumstances(scenario, run);
         let other = self.job.target.run(there, &circumstances);
-        self.steps += run.steps + other.steps;
-        let pair =
-            Pair { scenario: &scenario, run: &run, there, circumstances: &circumstances, other: &other };
-        if !is_cut(&run) && !is_cut(&other) && self.fault(&pair).is_ok() {
+        self.steps += other.steps;
+        let pair = Pair { scenario, run, there, circumstances: &circumstances, other: &other };
+        let is_alike = !is_cut(run) && !is_cut(&other) && self.fault(&pair).is_ok();
+        if is_alike {
             self.went_alike(&pair);
         }
+        is_alike
     }
 }

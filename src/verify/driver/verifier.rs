@@ -74,6 +74,8 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) returns: bool,
     /// The settings of the switches that skip blocks.
     pub(super) skips: Vec<u32>,
+    /// True where its circumstances are ones that its library never shows.
+    pub(super) is_unusual: bool,
     /// The states that it was started in besides that of power-on.
     pub(super) started: Vec<&'static str>,
 }
@@ -114,6 +116,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             telling: Vec::new(),
             returns: false,
             skips: Vec::new(),
+            is_unusual: false,
             started: Vec::new(),
         }
     }

@@ -70,6 +70,17 @@ impl Coverage {
         self.add_moved(run, &|_, span| span)
     }
 
+    /// True for a run that goes somewhere new.
+    pub fn has_new(&self, run: &Run) -> bool {
+        run.branches.iter().any(|(branch, ways)| {
+            let program = run.programs.get(branch.at.program as usize);
+            let seen = |way: &i64| {
+                program.is_none_or(|program| self.seen.contains(&(program.file, branch.at.span, *way)))
+            };
+            !ways.iter().all(seen)
+        })
+    }
+
     /// As [`Coverage::add`], for a text whose places stood elsewhere before it was edited.
     pub fn add_moved(&mut self, run: &Run, place: &dyn Fn(usize, Span) -> Span) -> bool {
         let before = self.seen.len();
