@@ -351,3 +351,6 @@ fn writes(program: &Program) -> impl Iterator<Item = (BlockId, usize, &Expr)> {
         })
     })
 }
+
+#[cfg(test)]
+mod tests;

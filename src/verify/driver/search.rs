@@ -189,7 +189,7 @@ impl Verifier<'_, '_> {
     }
 
     /// The variables that the program's callers are known to have set, and what they hold.
-    fn held(&self) -> BTreeMap<String, f64> {
+    pub(super) fn held(&self) -> BTreeMap<String, f64> {
         let assumed = self.job.assumptions.get(&self.program).into_iter().flatten();
         let held = assumed.filter_map(|one| match &one.predicate {
             Predicate::Holds(name, value) => Some((name.to_string(), *value)),

@@ -105,8 +105,13 @@ impl Verifier<'_, '_> {
         place: Option<(usize, Span)>,
         scenario: &Scenario,
     ) -> [Vec<Input>; 2] {
-        let is_given = self.given.is_known();
-        let all = all.into_iter().filter(|input| *input != Input::Selected || !is_given).collect();
+        let (is_given, held) = (self.given.is_known(), self.held());
+        let is_open = |input: &Input| match input {
+            Input::Selected => !is_given,
+            Input::Variable(name, false) => !held.contains_key(name),
+            _ => true,
+        };
+        let all = all.into_iter().filter(is_open).collect();
         let (file, span) = place.unwrap_or_default();
         let texts = &self.job.source.library.files;
         let blocks = texts.get(file).filter(|_| place.is_some()).map_or(&[][..], |file| &file.parsed.blocks);

@@ -239,10 +239,10 @@ fn dwells_count_seconds_with_a_point_on_haas() {
 /// Where functions alone are off in their last digit, those whose result stands in their argument are not.
 #[test]
 fn an_exact_function_has_no_last_digit() {
-    let text = "O1\n#1=1/3\n#101=ABS[-#1]\n#102=#1*3-ABS[#1]*3\n#103=SQRT[2]\nM30\n";
+    let text = "O1\n#1=1/3\n#101=ABS[-#1]\n#102=#1*3-ABS[#1]*3\n#103=SQRT[3]\nM30\n";
     let scenario = Scenario { digits: Some(5), functions_only: true, ..Scenario::default() };
     let run = run_on(&Control::plain("fanuc").unwrap(), &[text], &scenario);
     assert_eq!(value(&run, "#101"), Some(1.0 / 3.0));
     assert_eq!(value(&run, "#102"), Some(0.0));
-    assert_eq!(value(&run, "#103"), Some(1.4142));
+    assert_eq!(value(&run, "#103"), Some(1.7321));
 }
