@@ -65,7 +65,7 @@ Nothing needs to be done. To keep the cycle, set the machine as the message says
 Nothing needs to be done. While the operator turns the override of the spindle, the feed stays as it is, and the chip gets thinner or thicker."
 
     "0414" ShiftCounted Note "a local shift is counted into the coordinates"
-"The target has no local shift (G52). The shift is added to the absolute coordinates of the blocks that it is in force for, and its blocks go. The machine goes to the same places; they are written in the coordinates of the work offset.
+"The target has no local shift (G52). The shift is added to the absolute coordinates of the blocks that it is in force for, and its blocks go. The machine goes to the same places; they are written in the coordinates of the work offset. Where a word may count with one of several shifts, as in a part that is called under each of them, a register holds the shift that was set last, and is added.
 
 Nothing needs to be done. To move such a group of cuts on the target, change the coordinates, or give it a work offset of its own."
         }

@@ -13,8 +13,12 @@ pub(super) const READS: Obstacle = (
     "work with the coordinates of the work offset there",
 );
 pub(super) const CALLED: Obstacle = (
-    "another program is called while it is in force",
+    "what is called while it is in force is not in the library, is named by a computed number or at each move, or may run no times",
     "set the shift in the program that moves, or write its places in the coordinates of the work offset",
+);
+pub(super) const JUMPS: Obstacle = (
+    "the programs that call each other here go back to a sequence number (M99 P)",
+    "go back without a number, and jump in the caller",
 );
 pub(super) const RETURNS: Obstacle =
     ("the program goes back to its caller with it", "end the shift (G52 X0 Y0 Z0) before the return");
@@ -101,7 +105,15 @@ fn op_in_way(op: Op) -> Option<Obstacle> {
         Group::OneShot => {
             let plain = matches!(
                 op,
-                MachineOnce | ReferenceReturn | Dwell | ToolChange | Probe | CheckInch | CheckMetric
+                MachineOnce
+                    | ReferenceReturn
+                    | Dwell
+                    | Stop
+                    | OptionalStop
+                    | ToolChange
+                    | Probe
+                    | CheckInch
+                    | CheckMetric
             );
             plain || op.auxiliary().is_some()
         }
