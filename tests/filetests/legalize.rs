@@ -51,6 +51,7 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
 /// The groups of passes that run before variables have registers, but for those that only tidy.
 pub const LEGALIZE: &[&str] = &[
     "earlier",
+    "read",
     "source",
     "structure",
     "blocks",

@@ -1,6 +1,8 @@
 //! What is in force of every modal group at a place, and what statements do to it.
 
 use super::contour::Contour;
+pub use super::length_lost::{LengthLost, Ways};
+use super::named::Named;
 use super::tool_word::ToolWord;
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::Lattice;
@@ -39,49 +41,6 @@ enum Feed {
     Unknown,
 }
 
-/// What may have cancelled a tool length that the program did not end.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LengthLost {
-    /// A return to the reference position along the axis of the length.
-    pub by_reference: Ways,
-    /// A return of other axes alone.
-    pub by_other_axes: Ways,
-    /// A move in machine coordinates along the axis of the length.
-    pub by_machine_move: Ways,
-    /// A tool change.
-    pub by_change: Ways,
-    /// True where every way here went home, or in machine coordinates, along the axis of the length, whatever length was in
-    /// force.
-    pub is_home: bool,
-}
-
-/// On which of the ways to a place something happens.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Ways {
-    /// On none.
-    #[default]
-    None,
-    /// On some, on others not.
-    Some,
-    /// On every one.
-    Every,
-}
-
-impl LengthLost {
-    /// Joins what other ways did; true where that changed anything.
-    fn join(&mut self, other: Self) -> bool {
-        let join = |a: Ways, b: Ways| if a == b { a } else { Ways::Some };
-        let joined = Self {
-            by_reference: join(self.by_reference, other.by_reference),
-            by_other_axes: join(self.by_other_axes, other.by_other_axes),
-            by_machine_move: join(self.by_machine_move, other.by_machine_move),
-            by_change: join(self.by_change, other.by_change),
-            is_home: self.is_home && other.is_home,
-        };
-        std::mem::replace(self, joined) != joined
-    }
-}
-
 /// What is in force of every group, the feed, and the modal calls that are open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modal {
@@ -97,6 +56,8 @@ pub struct Modal {
     feed: Feed,
     /// What the last tool word is to the tool in the spindle.
     pub(crate) tool_word: ToolWord,
+    /// What every way here named.
+    pub(crate) named: Named,
     /// The open modal calls, innermost last; absent where paths disagree.
     pub calls: Option<Vec<Call>>,
     /// True where nothing in the library leaves another unit than the one that is named.
@@ -116,6 +77,7 @@ impl Modal {
             length_word: false,
             feed: Feed::Unknown,
             tool_word: ToolWord::Unknown,
+            named: Named::default(),
             calls: Some(Vec::new()),
             one_unit: false,
             contour: None,
@@ -240,6 +202,7 @@ impl Modal {
             self.step_length(nc);
             self.tool_word = self.tool_word.after(nc);
         }
+        self.named.step(nc);
         self.step_tap(nc);
         // After the unit and the feed mode, which it counts in, wherever they stand.
         if let Some(feed) = feed {
@@ -313,6 +276,7 @@ impl Modal {
             self.settings[Group::Units as usize] = unit;
         }
         self.feed = Feed::Unknown;
+        self.named = Named::default();
         self.length_lost.is_home = false;
     }
 
@@ -351,7 +315,7 @@ impl Lattice for Modal {
         }
         let tool_word = self.tool_word.join(other.tool_word);
         changed |= std::mem::replace(&mut self.tool_word, tool_word) != tool_word;
-        changed |= self.length_lost.join(other.length_lost);
+        changed |= self.length_lost.join(other.length_lost) | self.named.join(other.named);
         changed |= self.length_word && !other.length_word;
         self.length_word &= other.length_word;
         changed |= other.length_named && !self.length_named;
@@ -370,7 +334,8 @@ impl Lattice for Modal {
 
 /// True for words alone that put nothing in force, unless they run a cycle or a modal call.
 fn only_says_where(nc: &Nc) -> bool {
-    let stays = |role: Role| !matches!(role, Role::LengthOffset | Role::Tool | Role::Feed);
+    let stays =
+        |role: Role| !matches!(role, Role::LengthOffset | Role::RadiusOffset | Role::Tool | Role::Feed);
     nc.items.iter().all(|item| matches!(item, NcItem::Word(role, _) if stays(*role)))
 }
 

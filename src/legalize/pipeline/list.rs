@@ -3,7 +3,7 @@
 use super::cycles::CYCLES;
 use super::late::{ENTRY, EXPRESSIONS, LAYOUT, OPERATOR, REGISTERS};
 use super::moves::MOVES;
-use super::source::SOURCE;
+use super::source::{READ, SOURCE};
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
@@ -31,6 +31,7 @@ use crate::opt::{
 /// The passes from lowering to emission.
 pub const GROUPS: &[Group] = &[
     Group { name: "earlier", heading: "What an earlier conversion left", passes: EARLIER },
+    Group { name: "read", heading: "What programs read of what is in force", passes: READ },
     Group { name: "tidy", heading: "What lowering put in, tidier", passes: TIDY },
     Group { name: "source", heading: "What the programs rest on at the source", passes: SOURCE },
     Group {

@@ -11,6 +11,16 @@ use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
 use crate::legalize::moves::{bare_feeds, first_increments};
 use crate::legalize::offsets::{arc_starts, missing_length};
+use crate::legalize::variables::last_words;
+
+/// Before what is read is folded away.
+pub(super) const READ: &[Pass] = &[Pass::edits(
+    "last-words",
+    "numbers of tool offsets and codes that are read become constants or registers",
+    last_words::run,
+)
+.when(last_words::concerns)
+.changes_flow()];
 
 pub(super) const SOURCE: &[Pass] = &[
     Pass::reports(

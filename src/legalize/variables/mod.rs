@@ -5,6 +5,7 @@ pub(in crate::legalize) mod computed_numbers;
 pub(in crate::legalize) mod counted_clears;
 mod cycle_seconds;
 pub(in crate::legalize) mod dates;
+pub(in crate::legalize) mod last_words;
 pub(in crate::legalize) mod modal_reads;
 pub(in crate::legalize) mod most_values;
 pub(in crate::legalize) mod output_codes;

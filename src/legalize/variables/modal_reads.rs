@@ -16,6 +16,9 @@ use crate::legalize::{Context, Modal, Position, PreStatement, Rewriter, rewrite_
 use crate::text::Span;
 use std::collections::BTreeSet;
 
+/// G54 to G59.
+const STANDARD_OFFSETS: u32 = 6;
+
 /// True if the library reads state.
 pub fn concerns(features: &Features, _: &Context<'_>) -> bool {
     features.has(Feature::System)
@@ -31,12 +34,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 /// True where state may be read.
-fn may_read(index: usize, context: &Context<'_>) -> bool {
+pub(super) fn may_read(index: usize, context: &Context<'_>) -> bool {
     context.may_concern(index, |features| features.has(Feature::System))
 }
 
 /// The group that is read, by its common number, and what is added to its code; none for one that the target can read.
-fn group_of(e: &Expr, target: &Control) -> Option<(Group, f64)> {
+pub(super) fn group_of(e: &Expr, target: &Control) -> Option<(Group, f64)> {
     let (number, more) = match e {
         Expr::System(Sys::Modal, subscripts) => (subscripts.first()?.constant()?, 0.0),
         Expr::System(Sys::ModalMotionPlus1, _) => (1.0, 1.0),
@@ -75,9 +78,22 @@ fn codes(group: Group, source: &Control) -> Vec<(Op, Option<u32>, f64)> {
     found
 }
 
+/// True where a word beside a code selects additional work offsets too: then it is not known which code did.
+fn has_words(source: &Control) -> bool {
+    let mut rows = source.dialect().codes.iter().filter(|row| row.op == Op::SelectWork);
+    rows.any(|row| row.code.contains(' '))
+}
+
 /// The number of what is in force, where the text says it.
-fn number_of(state: &Modal, group: Group, source: &Control) -> Option<f64> {
+pub(super) fn number_of(state: &Modal, group: Group, source: &Control) -> Option<f64> {
     let Setting::Known(op, offset) = state.of(group) else { return None };
+    // What cancels a length may be another code to the variable.
+    if group == Group::LengthComp && state.length_lost.may_be() {
+        return None;
+    }
+    if op == Op::SelectWork && offset.is_none_or(|offset| offset > STANDARD_OFFSETS) && has_words(source) {
+        return None;
+    }
     let mut all = codes(group, source).into_iter();
     let (_, _, number) = all.find(|(other, selects, _)| {
         *other == op && (op != Op::SelectWork || (offset.is_some() && *selects == offset))
