@@ -73,7 +73,10 @@ fn a_called_program_begins_with_what_all_callers_have() {
     };
     let two = |sets: &str| format!("{}{}{SETS}{reader}", caller("O1", ""), caller("O3", sets));
     assert_eq!(held(&two(""), 3, 0), Some(Values::one(600.0)));
-    assert_eq!(held(&two(" common.120 = 1\n common.111 = 700\n"), 3, 0), Some(Values::of(vec![600.0, 700.0])));
+    assert_eq!(
+        held(&two(" common.120 = 1\n common.111 = 700\n"), 3, 0),
+        Some(Values::of(vec![600.0, 700.0]))
+    );
     assert_eq!(held(&two(" input common.111\n"), 3, 0), None);
     // One that does not set it.
     let third = "program O4 {\nblock0:\n call O2 -> block1\nblock1:\n end\n}\n";
