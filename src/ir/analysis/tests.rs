@@ -165,6 +165,27 @@ program O2 {{\nblock0:\n common.100 = vacant\n return\n}}\nprogram O3 {{\nblock0
     }
 }
 
+/// A part that sets #100 and unsets #102, called so often; #101 is none of its business.
+#[test]
+fn vacancy_after_calls_of_a_part() {
+    for (times, set, unset) in [
+        ("", false, true),
+        (" times 1", false, true),
+        (" times 3", false, true),
+        (" times 0", true, true),
+        (" times local.1", true, true),
+    ] {
+        let module = module(&format!(
+            "block0:\n common.101 = 1\n common.102 = 1\n call block2{times} -> block1\nblock1:\n end\n\
+             block2:\n common.100 = 5\n common.102 = vacant\n return"
+        ));
+        let summaries = Summaries::of(&module);
+        let vacancy = Vacancy::of(&module.programs[0], &summaries, &BTreeSet::new());
+        let may = |name: &str| vacancy.may_be_vacant(BlockId(1), 0, var(name));
+        assert_eq!((may("common.100"), may("common.101"), may("common.102")), (set, false, unset), "{times}");
+    }
+}
+
 #[test]
 fn values_found_backwards() {
     let module = module(

@@ -104,6 +104,11 @@ impl Analysis for Rules<'_> {
                     }
                 }
                 Callee::Block(_) if to != *next => Some(Cow::Borrowed(row)),
+                // It passes its part by where it runs no times; else what that leaves comes from its returns.
+                Callee::Block(entry) if to != entry && !call.level => {
+                    let count = call.count.as_ref().and_then(Expr::constant);
+                    count.is_none_or(|count| count < 1.0).then_some(Cow::Borrowed(row))
+                }
                 _ => self.changed(row, |row| {
                     self.disturb(self.summaries.by_call(call), row);
                     let filled = self.filled_by(call).into_iter().flatten();
