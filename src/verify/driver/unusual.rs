@@ -18,7 +18,7 @@ const STARTS: usize = 24;
 /// Looks at inputs before which they change.
 const LOOKS: std::ops::RangeInclusive<u32> = 2..=4;
 
-/// One thing that is as it never is.
+/// Something that the library never shows.
 enum Unusual {
     /// Inputs change before this look at them.
     InputsChange(u32),
@@ -74,7 +74,7 @@ impl Verifier<'_, '_> {
         changes.map(Unusual::InputsChange).chain(unit).chain(asked.map(Unusual::Mode)).collect()
     }
 
-    /// Has one thing so in a scenario.
+    /// Puts one of these into a scenario.
     fn put(&mut self, unusual: &Unusual, given: &EntryState, scenario: &mut Scenario) {
         match unusual {
             Unusual::InputsChange(look) => scenario.inputs_change_at = Some(*look),

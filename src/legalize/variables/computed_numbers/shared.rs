@@ -6,9 +6,9 @@
 use crate::assume::Predicate;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{SharedValues, Summaries, Values, evaluate};
-use crate::ir::{Bank, BlockId, Expr, Module, Program, Var};
-use crate::legalize::Context;
+use crate::ir::{Bank, BlockId, Callee, Expr, Module, Program, Var};
 use crate::legalize::variables::banks::each_index;
+use crate::legalize::{Context, calls_of};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,6 +21,8 @@ pub(super) struct Shared {
     at_entry: BTreeMap<(usize, Var), f64>,
     /// What each is set to, and the names of the programs that do.
     sets: BTreeMap<Var, (Values, BTreeSet<String>)>,
+    /// True where programs of the library call some that it does not have.
+    calls_outside: bool,
 }
 
 impl Shared {
@@ -28,6 +30,10 @@ impl Shared {
     pub(super) fn of(module: &Module, summaries: &Summaries) -> Self {
         let mut shared = Self::default();
         let Some(values) = SharedValues::of(module, summaries) else { return shared };
+        let names: BTreeSet<_> = module.programs.iter().filter_map(|program| program.name.as_ref()).collect();
+        let mut calls = module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
+        let is_missing = |callee: &Callee| matches!(callee, Callee::Program(name) if !names.contains(name));
+        shared.calls_outside = calls.any(|call| is_missing(&call.callee));
         for (index, program) in module.programs.iter().enumerate() {
             each_index(program, &mut |bank, number, _, id, at| {
                 number.variables(&mut |var| {
@@ -86,9 +92,13 @@ impl Shared {
             Values::Few(all) => all.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or "),
             Values::Between { low, high, .. } => format!("{low} to {high}"),
         };
+        let sets = if by.len() > 1 { "set" } else { "sets" };
         let by = by.iter().map(String::as_str).collect::<Vec<_>>().join(" and ");
-        let what = format!("numbers of variables are counted from {name}, which {by} sets to {numbers}");
-        let help = format!("if somebody sets {name} to another number, convert the library again");
+        let what = format!("numbers of variables are counted from {name}, which {by} {sets} to {numbers}");
+        let mut help = format!("if somebody sets {name} to another number, convert the library again");
+        if self.calls_outside {
+            help += "; programs that are not in the library must return to the block after their call";
+        }
         let held = self.at_entry.get(&(index, var));
         let predicate = held.map_or(Predicate::Unseen, |value| Predicate::Holds(name.into(), *value));
         let told = Diagnostic::new(Code::Conditional, span, what.clone()).with_help(help);
