@@ -73,7 +73,7 @@ pub use stmt::{
 };
 pub use sum::{constant_part, shifted};
 pub use validate::{Valid, validate};
-pub use var::{Class, FLAGS, LAST_NUMBER, LOCAL_FLAGS, OF_NO_LEVEL, Var, flag_of};
+pub use var::{Class, FLAGS, LAST_NUMBER, LOCAL_FLAGS, OF_NO_LEVEL, Var, flag_of, statics_of};
 
 use crate::syntax::{Label, ProgramName};
 use std::collections::BTreeMap;

@@ -73,6 +73,22 @@ pub fn flag_of(name: &str) -> String {
 /// Statics from this number on belong to no level: what a program sets there its callers find.
 pub const OF_NO_LEVEL: u32 = 1_000_000;
 
+/// The first of those that a pass sets, by what they hold: two passes may act on one program, so each has its own.
+pub mod statics_of {
+    use super::OF_NO_LEVEL;
+
+    /// What the moves of drilling cycles count with.
+    pub const HOLES: u32 = OF_NO_LEVEL;
+    /// The cosine, the sine and the centre of a rotation.
+    pub const ROTATION: u32 = OF_NO_LEVEL + 100;
+    /// The length and the angle of a place in polar coordinates.
+    pub const POLAR: u32 = OF_NO_LEVEL + 110;
+    /// A local shift along X, Y and Z.
+    pub const SHIFT: u32 = OF_NO_LEVEL + 120;
+    /// The last numbers of tool offsets, and codes in force.
+    pub const LAST_WORDS: u32 = OF_NO_LEVEL + 130;
+}
+
 /// Flags of locals have numbers from here on.
 pub const LOCAL_FLAGS: u32 = 100;
 

@@ -41,7 +41,7 @@ struct First {
 }
 
 impl Awaited {
-    /// What a scenario says of its inputs; none where they stay as they are.
+    /// What a scenario says of its inputs; none if they stay as they are.
     pub(super) fn of(scenario: &Scenario) -> Option<Self> {
         let Scenario { inputs_change: waits, inputs_change_at: at, .. } = *scenario;
         (waits || at.is_some()).then(|| Self { waits, at, ..Self::default() })

@@ -76,7 +76,7 @@ impl<'m> SharedValues<'m> {
         }
     }
 
-    /// What one of them may hold before a statement of a block; none of what is not followed, or may be anything.
+    /// What one of them may hold before a statement of a block; none if it is not followed, or may be anything.
     pub fn at(&self, program: usize, (id, at): (BlockId, usize), var: Var) -> Option<Values> {
         let place = self.rules.place(var)?;
         let mut known = self.over.at(program, id)?.clone();
@@ -151,16 +151,12 @@ impl<'m> Rules<'m> {
                 Callee::Program(name) => {
                     self.names.get(name).is_some_and(|index| names_block(&self.module.programs[*index]))
                 }
-                Callee::Block(_) => false,
+                Callee::Block(_) => names_block(program),
                 Callee::Computed(_) | Callee::Cycle(_) => true,
             },
             _ => false,
         };
-        if self.summaries.come_back_to(program) && program.blocks.iter().any(may) {
-            labelled(program).collect()
-        } else {
-            BTreeSet::new()
-        }
+        if program.blocks.iter().any(may) { labelled(program).collect() } else { BTreeSet::new() }
     }
 
     /// What is known where a call may come back to a block by its number.

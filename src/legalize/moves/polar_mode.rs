@@ -20,8 +20,8 @@ use crate::dialect::Control;
 use crate::ir::analysis::ModalFacts;
 use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::{
-    BinOp, BlockId, Class, Expr, Module, Nc, NcItem, OF_NO_LEVEL, Place, SourceInfo, Stmt, StmtKind, Stmts,
-    TermKind, Var,
+    BinOp, BlockId, Class, Expr, Module, Nc, NcItem, Place, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Var,
+    statics_of,
 };
 use crate::legalize::Context;
 use crate::legalize::layout::blanks::is_empty;
@@ -34,8 +34,8 @@ pub fn concerns(target: &Control) -> bool {
 }
 
 /// The registers of the last distance and of the last angle.
-const LENGTH: Var = Var { class: Class::Static, number: OF_NO_LEVEL + 110 };
-const ANGLE: Var = Var { class: Class::Static, number: OF_NO_LEVEL + 111 };
+const LENGTH: Var = Var { class: Class::Static, number: statics_of::POLAR };
+const ANGLE: Var = Var { class: Class::Static, number: statics_of::POLAR + 1 };
 
 const PLANE: &str =
     "polar coordinates in another plane than XY, or under an unknown one: write G17 before them";

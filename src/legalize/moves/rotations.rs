@@ -21,8 +21,8 @@ use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::analysis::programmed::Programmed;
 use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
-    Block, BlockId, Class, Expr, Module, NcItem, OF_NO_LEVEL, Place, SourceInfo, Stmt, StmtKind, Stmts,
-    TermKind, Var,
+    Block, BlockId, Class, Expr, Module, NcItem, Place, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Var,
+    statics_of,
 };
 use crate::legalize::Context;
 use crate::legalize::rewrite::highest_temp;
@@ -37,7 +37,7 @@ pub fn concerns(target: &Control) -> bool {
 /// The registers of the cosine, the sine and the centre.
 const REGISTERS: [Var; 4] = {
     const fn register(number: u32) -> Var {
-        Var { class: Class::Static, number: OF_NO_LEVEL + 100 + number }
+        Var { class: Class::Static, number: statics_of::ROTATION + number }
     }
     [register(0), register(1), register(2), register(3)]
 };

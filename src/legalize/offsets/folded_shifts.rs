@@ -18,8 +18,8 @@ use crate::dialect::Question;
 use crate::ir::analysis::over_calls::{OverCalls, called};
 use crate::ir::analysis::{Around, Filled, Vacancy, entries};
 use crate::ir::{
-    Block, BlockId, Callee, Class, Expr, Module, Nc, OF_NO_LEVEL, Place, Program, SourceInfo, Stmt, StmtKind,
-    Var,
+    Block, BlockId, Callee, Class, Expr, Module, Nc, Place, Program, SourceInfo, Stmt, StmtKind, Var,
+    statics_of,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, calls_of};
@@ -31,7 +31,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The registers of the shift along X, Y and Z, where a word counts with one of several.
 const REGISTERS: [Var; 3] = {
     const fn register(number: u32) -> Var {
-        Var { class: Class::Static, number: OF_NO_LEVEL + 120 + number }
+        Var { class: Class::Static, number: statics_of::SHIFT + number }
     }
     [register(0), register(1), register(2)]
 };

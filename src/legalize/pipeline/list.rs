@@ -31,7 +31,7 @@ use crate::opt::{
 /// The passes from lowering to emission.
 pub const GROUPS: &[Group] = &[
     Group { name: "earlier", heading: "What an earlier conversion left", passes: EARLIER },
-    Group { name: "read", heading: "What programs read of what is in force", passes: READ },
+    Group { name: "read", heading: "Numbers and codes in force that programs read", passes: READ },
     Group { name: "tidy", heading: "What lowering put in, tidier", passes: TIDY },
     Group { name: "source", heading: "What the programs rest on at the source", passes: SOURCE },
     Group {

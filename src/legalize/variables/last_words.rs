@@ -13,7 +13,7 @@ use crate::dialect::Control;
 use crate::ir::analysis::named::{Last, value};
 use crate::ir::eval::{Memory, holds};
 use crate::ir::{
-    BlockId, Class, Cond, Expr, Module, OF_NO_LEVEL, Place, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Var,
+    BlockId, Class, Cond, Expr, Module, Place, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Var, statics_of,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
@@ -130,7 +130,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     }
     let left = open(module, &readers, &facts, context);
     several.retain(|kept, _| left.contains_key(kept));
-    let registers: Vec<(Kept, Var, BTreeSet<usize>)> = (OF_NO_LEVEL + 120..)
+    let registers: Vec<(Kept, Var, BTreeSet<usize>)> = (statics_of::LAST_WORDS..)
         .zip(several)
         .map(|(number, (kept, several))| (kept, Var { class: Class::Static, number }, several.together))
         .collect();
@@ -183,7 +183,7 @@ fn decide(
     changed
 }
 
-/// Whether a condition holds where what it reads is this number; none where it reads more, or raises an alarm.
+/// Whether a condition holds if what it reads is this number; none if it reads more, or raises an alarm.
 fn holds_with(cond: &Cond, number: f64, context: &Context<'_>) -> Option<bool> {
     let mut cond = cond.clone();
     let mut constant = !cond.has_switch();

@@ -115,4 +115,14 @@ fn a_return_to_a_number_loses_it() {
     let back = "program O7 {\nblock0:\n common.120 = 1\n return to 50\n}\n";
     assert_eq!(held(&format!("{main}{SETS}{plain}"), 0, 2), Some(Values::one(600.0)));
     assert_eq!(held(&format!("{main}{SETS}{back}"), 0, 2), None);
+    // So may a part of the program itself, which sets another base.
+    let part = |returns: &str| {
+        format!(
+            "program O1 {{\nblock0:\n call O9 -> block1\nblock1:\n branch local.1 eq 1 ? block2 : block3\nblock2 (N50):\n \
+             common.100 = #[common.111 + 5]\n end\nblock3:\n call block4 -> block5\nblock4:\n call O8 -> block6\n\
+             block5:\n end\nblock6:\n {returns}\n}}\nprogram O8 {{\nblock0:\n common.111 = 700\n return\n}}\n{SETS}"
+        )
+    };
+    assert_eq!(held(&part("return"), 0, 2), Some(Values::one(600.0)));
+    assert_eq!(held(&part("return to 50"), 0, 2), None);
 }

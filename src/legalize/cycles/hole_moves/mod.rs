@@ -24,8 +24,8 @@ use crate::dialect::{Control, Question, Units};
 use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
-    BinOp, BlockId, Builder, Class, Cond, Expr, Module, Nc, NcItem, OF_NO_LEVEL, Place, Program, Relation,
-    SourceInfo, Stmt, StmtKind, TermKind, Var,
+    BinOp, BlockId, Builder, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo,
+    Stmt, StmtKind, TermKind, Var, statics_of,
 };
 use crate::legalize::Context;
 use crate::legalize::features::Features;
@@ -83,7 +83,7 @@ pub(super) fn write(module: &mut Module, context: &mut Context<'_>, only: Option
             flow: &known,
             rules,
             held,
-            first: OF_NO_LEVEL,
+            first: statics_of::HOLES,
             temps: highest_temp(program),
             vacancies: &vacancies,
             inch,

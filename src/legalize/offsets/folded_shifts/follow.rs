@@ -45,7 +45,7 @@ impl Shifted {
         self.0[axis].size.only().map(|bits| f64::from_bits(*bits))
     }
 
-    /// What a word of an axis is further along by; none where nothing tells.
+    /// What a word of an axis is further along by; none if nothing tells it.
     pub fn by(&self, axis: usize) -> Option<By> {
         let told = self.0[axis].told;
         let register = || (told != Told::Nowhere).then_some(By::Register(told == Told::Start));
