@@ -5,6 +5,7 @@ use super::{FOUND, WELL, common, outcome, reviews, streams};
 use crate::library::{Certificates, Conversion, Options, Outcome, ProgramReport, convert, judge_telling};
 use crate::opt::Level;
 use crate::report::{self, Part};
+use rayon::prelude::*;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -170,7 +171,8 @@ pub(super) fn verified(
     let all = conversions.iter().map(|conversion| conversion.programs.iter().filter(open).count()).sum();
     common::with_progress("verifying", all, |done| {
         let effort = common::effort(time);
-        let judged = jobs.iter().zip(conversions).map(|(job, conversion)| {
+        // All libraries at once: one long program would else leave the other cores idle at the end of each.
+        let judged = jobs.par_iter().zip(conversions).map(|(job, conversion)| {
             match job.source.is_same_machine(&job.target) {
                 // A program that stays on its machine is copied, byte for byte.
                 true => Certificates::default(),
