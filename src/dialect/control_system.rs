@@ -60,7 +60,11 @@ impl Control {
         let same = self.dialect().same_cells.iter().filter(|row| row.name == name);
         let same = same.map(|row| (row.first, row.last));
         let runs = classes.chain(states).chain(reserved).chain(same);
-        runs.flat_map(|(first, last)| [first, last.saturating_add(1)]).collect()
+        let bounds: Vec<u32> = runs.flat_map(|(first, last)| [first, last.saturating_add(1)]).collect();
+        // What is counted as the number of a cell may be written with the second number.
+        let second = self.dialect().same_cells.iter().filter_map(|row| row.first.checked_sub(row.cell));
+        let second = second.flat_map(|apart| bounds.iter().filter_map(move |bound| bound.checked_sub(apart)));
+        second.chain(bounds.iter().copied()).collect()
     }
 
     /// True if a row of the system's begins at or before a number, and ends at or after it.

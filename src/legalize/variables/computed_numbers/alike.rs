@@ -26,14 +26,9 @@ pub(super) fn compared(source: &Control, target: &Control) -> Vec<Run> {
     let dense = last.min(DENSE);
     let states = |control| all_states(control, dense);
     let (ours, theirs) = (states(source), states(target));
-    for number in 0..=dense {
-        let [our, their] = [&ours, &theirs].map(|of| of.get(number as usize).and_then(Option::as_ref));
-        add(&mut runs, number, number, same(source, target, number, our, their));
-    }
     let mut bounds = [source.numbered_bounds(), target.numbered_bounds()].concat();
-    bounds.retain(|bound| (dense + 1..=last).contains(bound));
-    bounds.push(dense + 1);
-    bounds.push(last.saturating_add(1));
+    bounds.retain(|bound| *bound <= last);
+    bounds.extend([0, dense + 1, last.saturating_add(1)]);
     bounds.sort_unstable();
     bounds.dedup();
     for (first, end) in bounds.iter().zip(bounds.iter().skip(1)) {
@@ -42,9 +37,15 @@ pub(super) fn compared(source: &Control, target: &Control) -> Vec<Run> {
         let step = if each { 1 } else { end - first };
         let mut number = *first;
         while number < *end {
-            let [our, their] = [source, target].map(|control| control.numbered_state(number));
-            let (alike, here) = same(source, target, number, our.as_ref(), their.as_ref());
-            add(&mut runs, number, number + step - 1, (alike, here));
+            let found = if number > dense {
+                let [our, their] = [source, target].map(|control| control.numbered_state(number));
+                same(source, target, number, our.as_ref(), their.as_ref())
+            } else {
+                let [our, their] =
+                    [&ours, &theirs].map(|of| of.get(number as usize).and_then(Option::as_ref));
+                same(source, target, number, our, their)
+            };
+            add(&mut runs, number, number + step - 1, found);
             number += step;
         }
     }
@@ -104,4 +105,27 @@ fn stops_alike(source: &Control, target: &Control) -> bool {
         let [here, there] = [source, target].map(|control| control.ends(Pause::Message, running).answer);
         here.is_none() || here == there
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_says_of_each_number_what_it_says_of_its_first() {
+        let control = |name: &str| Control::plain(name).unwrap();
+        for (source, target) in [("fanuc", "haas"), ("haas", "fanuc"), ("fanuc", "fadal")] {
+            let (source, target) = (control(source), control(target));
+            let runs = compared(&source, &target);
+            assert_eq!(runs.first().map(|run| run.first), Some(0));
+            assert!(runs.windows(2).all(|two| two[0].last + 1 == two[1].first), "no gaps");
+            for run in runs.iter().filter(|run| run.first < 20_000) {
+                for number in run.first..=run.last.min(20_000) {
+                    let [our, their] = [&source, &target].map(|control| control.numbered_state(number));
+                    let own = same(&source, &target, number, our.as_ref(), their.as_ref());
+                    assert_eq!(own, (run.alike, run.here), "#{number}");
+                }
+            }
+        }
+    }
 }
