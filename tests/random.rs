@@ -133,8 +133,13 @@ fn random_programs_do_the_same_on_the_target() {
 
 fn search(running: &Running, programs: u64, seed: u64) {
     let start = Instant::now();
-    let kinds: Vec<(&str, Policy)> =
-        DIALECTS.iter().flat_map(|dialect| Policy::ALL.map(|policy| (*dialect, policy))).collect();
+    let wanted = std::env::var("MACROGLOT_KINDS").unwrap_or_default();
+    let kinds = DIALECTS.iter().flat_map(|dialect| Policy::ALL.map(|policy| (*dialect, policy)));
+    // Left out, a kind keeps its place: the seeds of the others stay what they are.
+    let kinds: Vec<(usize, (&str, Policy))> = kinds
+        .enumerate()
+        .filter(|(_, (dialect, policy))| format!("{dialect} {policy:?}").contains(&wanted))
+        .collect();
     let mut table = String::new();
     let (mut all, mut useful) = (0, 0);
     let mut judgements: BTreeMap<(&str, Judgement), usize> = BTreeMap::new();
@@ -143,19 +148,16 @@ fn search(running: &Running, programs: u64, seed: u64) {
     let mut longest = (Duration::ZERO, 0);
     let mut faulty: Vec<(&str, Policy, u64, String)> = Vec::new();
     let verbose = std::env::var_os("MACROGLOT_REASONS").is_some();
-    let wanted = std::env::var("MACROGLOT_KINDS").unwrap_or_default();
-    for (at, (dialect, policy)) in kinds.into_iter().enumerate() {
-        // Left out, a kind keeps its place: the seeds of the others stay what they are.
-        if !format!("{dialect} {policy:?}").contains(&wanted) {
-            continue;
-        }
-        let trials: Vec<(u64, Trial)> = (0..programs)
-            .into_par_iter()
-            .map(|number| {
-                let seed = seed.wrapping_add(((at as u64) << 32) + number);
-                (seed, running.tried(seed, &drawn(dialect, policy, seed)))
-            })
-            .collect();
+    // All kinds at once: a slow program of one would else leave cores idle.
+    let trials = kinds.par_iter().map(|(at, (dialect, policy))| {
+        let trials = (0..programs).into_par_iter().map(|number| {
+            let seed = seed.wrapping_add(((*at as u64) << 32) + number);
+            (seed, running.tried(seed, &drawn(dialect, *policy, seed)))
+        });
+        trials.collect()
+    });
+    let trials: Vec<Vec<(u64, Trial)>> = trials.collect();
+    for ((_, (dialect, policy)), trials) in kinds.into_iter().zip(trials) {
         let share = trials.iter().filter(|(_, trial)| trial.useful).count();
         let mut verdicts: BTreeMap<Judgement, usize> = BTreeMap::new();
         for (target, judgement) in trials.iter().flat_map(|(_, trial)| &trial.judged) {

@@ -7,6 +7,7 @@ use macroglot::ir::Module;
 use macroglot::legalize::Context;
 use macroglot::legalize::pipeline::{self, Pass};
 use macroglot::library::{Conversion, Input, Lock, Options, Outcome, convert};
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -197,36 +198,41 @@ const WRITTEN_ARC: f64 = 0.03;
 /// Every program of every list that has a conversion makes the same moves there, but for the rounding of words.
 #[test]
 fn every_conversion_moves_as_its_source() {
-    let (mut wrong, mut count) = (Vec::new(), 0);
-    for (path, expectation) in expectations() {
-        for to in ["fanuc", "haas"].into_iter().filter(|to| *to != expectation.control) {
-            // A lathe's program has no machine to run on at the other control.
-            if expectation.profile.contains("lathe") {
-                continue;
-            }
-            let units = if expectation.profile.contains("inch") { "inch" } else { "metric" };
-            let profile = format!("units = \"{units}\"");
-            let source = control(&expectation.control, &expectation.profile);
-            let target = control(to, &format!("dialect = \"{to}\"\n{profile}"));
-            let made = conversion(&expectation, &source, &target);
-            if made.programs.iter().any(|program| program.outcome == Outcome::Refused) {
-                continue;
-            }
-            count += 1;
-            let converts = Converts { to: to.into(), files: Vec::new(), profile, scenario: None };
-            let folder = tempfile::tempdir().unwrap();
-            let there = of_target(&expectation, &converts, &made, folder.path());
-            let (found, _) = moves(&there);
-            let alike =
-                |a: &Move, b: &Move| a.is_within(b, if a.kind == "arc" { ROUNDED_ARC } else { ROUNDED });
-            if let Some(difference) = difference_by(&found, &there.list(), alike) {
-                wrong.push(format!("{} to {to}: {difference}", path.display()));
-            }
-        }
-    }
+    let all = expectations();
+    let ways = all.par_iter().flat_map_iter(|(path, expectation)| {
+        // A lathe's program has no machine to run on at the other control.
+        let is_lathe = expectation.profile.contains("lathe");
+        let others = ["fanuc", "haas"].into_iter().filter(move |to| !is_lathe && *to != expectation.control);
+        others.map(move |to| (path, expectation, to))
+    });
+    let moved: Vec<Option<String>> = ways
+        .filter_map(|(path, expectation, to)| {
+            let difference = moves_otherwise(expectation, to)?;
+            Some(difference.map(|difference| format!("{} to {to}: {difference}", path.display())))
+        })
+        .collect();
+    let wrong: Vec<&str> = moved.iter().flatten().map(String::as_str).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    eprintln!("conversions that move alike: {count}");
-    assert!(count >= 90, "{count}");
+    eprintln!("conversions that move alike: {}", moved.len());
+    assert!(moved.len() >= 90, "{}", moved.len());
+}
+
+/// What a program's conversion moves otherwise, if anything; none if it has no conversion.
+fn moves_otherwise(expectation: &Expectation, to: &str) -> Option<Option<String>> {
+    let units = if expectation.profile.contains("inch") { "inch" } else { "metric" };
+    let profile = format!("units = \"{units}\"");
+    let source = control(&expectation.control, &expectation.profile);
+    let target = control(to, &format!("dialect = \"{to}\"\n{profile}"));
+    let made = conversion(expectation, &source, &target);
+    if made.programs.iter().any(|program| program.outcome == Outcome::Refused) {
+        return None;
+    }
+    let converts = Converts { to: to.into(), files: Vec::new(), profile, scenario: None };
+    let folder = tempfile::tempdir().unwrap();
+    let there = of_target(expectation, &converts, &made, folder.path());
+    let (found, _) = moves(&there);
+    let alike = |a: &Move, b: &Move| a.is_within(b, if a.kind == "arc" { ROUNDED_ARC } else { ROUNDED });
+    Some(difference_by(&found, &there.list(), alike))
 }
 
 /// Corners of lathes, and lines by their angle, that are written out go where the lists of their geometry say, but for the rounding of
