@@ -25,6 +25,7 @@ mod shared_values;
 mod temps;
 mod text_ends;
 pub(crate) mod tool_word;
+mod touches;
 pub(crate) mod upward_exposed;
 mod vacancy;
 mod values;

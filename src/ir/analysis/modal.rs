@@ -4,6 +4,7 @@ use super::contour::Contour;
 pub use super::length_lost::{LengthLost, Ways};
 use super::named::Named;
 use super::tool_word::ToolWord;
+use super::touches::Touches;
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, Call, Expr, Nc, NcItem, Stmt, StmtKind, TermKind};
@@ -262,6 +263,33 @@ impl Modal {
             (false, _) if nc.has(Op::MachineOnce) && along => lost.by_machine_move = ways,
             (false, _) => {}
         }
+    }
+
+    /// After a call: what its routine does not touch is as it was before the call, whoever else calls it. A modal call that is
+    /// open, and a contour that a cycle reads, may change anything at each block.
+    pub(super) fn keep(&mut self, before: &Self, touches: &Touches) {
+        if touches.all || before.may_call() || before.contour.is_some() {
+            return;
+        }
+        for (at, mine) in self.settings.iter_mut().enumerate().filter(|(at, _)| !touches.groups[*at]) {
+            *mine = before.settings[at];
+        }
+        if !touches.groups[Group::WorkOffset as usize] {
+            self.may_be_cancelled = before.may_be_cancelled;
+        }
+        if !touches.length {
+            self.length_lost = before.length_lost;
+            (self.length_named, self.length_word) = (before.length_named, before.length_word);
+        }
+        if !touches.feed {
+            self.feed = before.feed;
+        }
+        if !touches.tool {
+            self.tool_word = before.tool_word;
+        }
+        self.named.keep(before.named, touches);
+        self.calls.clone_from(&before.calls);
+        self.contour = None;
     }
 
     /// False for a statement that leaves everything as it is.

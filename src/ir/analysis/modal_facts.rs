@@ -2,13 +2,14 @@
 //!
 //! A forward analysis over all programs at once: the state at a program's entry
 //! joins the states at all its calls, and the state after a call is the
-//! callee's at its returns; a return to a sequence number goes on there as well. A
+//! callee's at its returns, but for what the callee does not touch: that is as its caller had it; a return to a sequence number goes on there as well. A
 //! computed call enters every program that it may be meant for. What a program starts in that has no known caller or ends the
 //! run, and what an unknown callee leaves, is not known.
 
 use super::cfg::reachable;
 use super::computed_calls::{Callees, computed_calls};
 use super::modal::{Modal, calls_of};
+use super::touches::{Place, Touches, routines};
 use crate::ir::analysis::dataflow::{Lattice, Routines};
 use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::syntax::{Label, ProgramName};
@@ -83,9 +84,6 @@ impl ModalFacts {
     }
 }
 
-/// A program entered at a block.
-type Place = (usize, BlockId);
-
 struct Analysis<'m> {
     module: &'m Module,
     /// True where nested modal calls do not enter the program that they name.
@@ -98,6 +96,8 @@ struct Analysis<'m> {
     firsts: Vec<usize>,
     /// By routine, the blocks that it can run.
     reach: BTreeMap<usize, BTreeSet<BlockId>>,
+    /// By routine, what it and all that it calls may change.
+    touches: BTreeMap<Place, Touches>,
     /// The last states that were like none of these.
     recent: VecDeque<Arc<Modal>>,
 }
@@ -126,11 +126,13 @@ impl<'m> Analysis<'m> {
             entries: Routines::new(firsts.last().copied().unwrap_or_default()),
             firsts,
             reach: BTreeMap::new(),
+            touches: BTreeMap::new(),
             recent: VecDeque::new(),
         }
     }
 
     fn run(mut self, entry: &Modal) -> ModalFacts {
+        self.touches = routines(self.module, &self.by_name);
         let called = self.called_programs();
         let (entry, head) = (&Arc::new(entry.clone()), &Arc::new(entry.at_head()));
         for (index, program) in self.module.programs.iter().enumerate() {
@@ -255,7 +257,15 @@ impl<'m> Analysis<'m> {
             // Its next run begins in the state that it left.
             self.go(entry, after);
         }
-        after
+        let mut after = after?;
+        if let Some(touches) = self.touches.get(&entry) {
+            let mut kept = Modal::clone(&after);
+            kept.keep(state, touches);
+            if kept != *after {
+                after = self.shared(state, kept);
+            }
+        }
+        Some(after)
     }
 
     /// A return leaves every routine that the block belongs to; one to a sequence number goes on there in the callers.
@@ -313,80 +323,4 @@ pub fn replace_statements(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ir::text::parse;
-
-    fn draw(seed: &mut u64, limit: u64) -> u64 {
-        *seed ^= *seed << 13;
-        *seed ^= *seed >> 7;
-        *seed ^= *seed << 17;
-        *seed % limit
-    }
-
-    /// Statements after which something else is in force.
-    const STATEMENTS: [&str; 20] = [
-        "nc motion.linear feed=100",
-        "nc motion.rapid",
-        "nc axis.x=1",
-        "nc cycle.tap axis.x=2 axis.z=-1",
-        "nc cycle.off",
-        "nc units.inch",
-        "nc units.metric",
-        "nc feed=5",
-        "nc length.plus offset.length=1",
-        "nc length.plus offset.length=2 axis.z=5",
-        "nc length.off",
-        "nc reference.return axis.z=0",
-        "nc reference.return axis.x=0",
-        "nc wcs.select wcs.number=1",
-        "nc wcs.select wcs.number=2",
-        "nc spindle.cw",
-        "nc spindle.stop",
-        "nc tool=1",
-        "nc tool.change",
-        "nc wcs.machine.once axis.z=0",
-    ];
-
-    fn module(seed: &mut u64) -> Module {
-        let mut text = String::new();
-        for name in 1..4 {
-            let count = 1 + draw(seed, 5);
-            text.push_str(&format!("program O{name} {{\n"));
-            for id in 0..count {
-                text.push_str(&format!("block{id}:\n"));
-                for _ in 0..draw(seed, 3) {
-                    text.push_str(&format!(" {}\n", STATEMENTS[draw(seed, 20) as usize]));
-                }
-                let [a, b] = [draw(seed, count), draw(seed, count)];
-                let callee = 1 + draw(seed, 3);
-                text.push_str(&match draw(seed, 8) {
-                    0 => " end\n".to_owned(),
-                    1 | 2 => " return\n".to_owned(),
-                    3 => format!(" call block{a} -> block{b}\n"),
-                    4 => format!(" call O{callee} -> block{b}\n"),
-                    5 => format!(" jump block{a}\n"),
-                    _ => format!(" branch global.1 lt 3 ? block{a} : block{b}\n"),
-                });
-            }
-            text.push_str("}\n");
-        }
-        parse(&text).unwrap_or_else(|error| panic!("{text}: {error}"))
-    }
-
-    #[test]
-    fn what_is_found_does_not_hang_on_the_order_of_visits() {
-        for seed in 1..500u64 {
-            let mut random = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-            let module = module(&mut random);
-            let found = ModalFacts::of(&module, &Modal::unknown()).entries;
-            for _ in 0..4 {
-                let mut analysis = Analysis::new(&module, false);
-                let ranks = found.iter().map(|_| draw(&mut random, 100) as u32).collect();
-                analysis.entries = Routines::ranked(ranks);
-                let other = analysis.run(&Modal::unknown()).entries;
-                assert_eq!(found, other, "seed {seed}: {}", crate::ir::text::print(&module));
-            }
-        }
-    }
-}
+mod tests;

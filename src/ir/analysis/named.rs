@@ -1,5 +1,6 @@
 //! What the ways to a place named: the last numbers of tool offsets, whatever they did, and the groups of codes.
 
+use super::touches::Touches;
 use crate::canon::{Group, Op, Role};
 use crate::ir::{Expr, Nc, NcItem};
 
@@ -70,6 +71,20 @@ impl Named {
                     None => Last::Named,
                 });
             }
+        }
+    }
+
+    /// After a call: what its routine does not name is as it was named before the call.
+    pub(super) fn keep(&mut self, before: Self, touches: &Touches) {
+        if touches.named {
+            return;
+        }
+        self.groups |= before.groups;
+        if !touches.length {
+            self.length = before.length;
+        }
+        if !touches.radius {
+            self.radius = before.radius;
         }
     }
 
