@@ -141,7 +141,11 @@ impl<'m> Library<'m> {
                     }
                     match self.callees(call) {
                         Callees::Own | Callees::Outside => {}
-                        Callees::Any => (0..count).for_each(&mut enter),
+                        // One that ends the run is no subprogram.
+                        Callees::Any => {
+                            let returns = |at: &usize| module.programs[*at].returns();
+                            (0..count).filter(returns).for_each(&mut enter);
+                        }
                         Callees::These(callees) => callees.iter().copied().for_each(&mut enter),
                     }
                 }

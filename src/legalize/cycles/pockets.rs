@@ -12,12 +12,15 @@ mod path;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
+use crate::ir::analysis::behind::behind;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::moves::increments::parts_of_unit;
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use crate::legalize::{Context, Modal};
+use crate::text::Span;
 use path::{Pocket, write};
+use std::collections::BTreeSet;
 
 /// More circles than this, repeats counted, are too long to write out.
 const MOST: usize = 100;
@@ -43,12 +46,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     context.count(module);
     let other = |op: Op| op.group() == Group::Plane && op != Op::PlaneXy;
-    let never = Never {
-        turned: !context.features.any_op(other),
-        drills: !context.features.any_op(Op::is_cycle),
-        shapes: !context.features.any_op(|op| matches!(op, Op::RotateOn | Op::ScaleOn | Op::MirrorOn)),
-        compensates: !context.features.any_op(|op| matches!(op, Op::RadiusLeft | Op::RadiusRight)),
-    };
+    let never_turned = !context.features.any_op(other);
+    let [drills, shapes, compensates] = IN_THE_WAY.map(|(on, off)| after_one_of(module, on, off));
     let kept = |state| context.target.system_runs(state).next().is_some();
     let wears = [Sys::RadiusWear, Sys::DiameterWear, Sys::DiameterOrRadiusWear].into_iter().any(kept);
     for index in 0..module.programs.len() {
@@ -61,6 +60,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             for (place, stmt) in block.stmts.iter().enumerate() {
                 let before = state.clone();
                 state.step(stmt);
+                let is_after = |some: &BTreeSet<(usize, Span)>| some.contains(&(index, stmt.site.span));
+                let never = Never {
+                    turned: never_turned,
+                    drills: !is_after(&drills),
+                    shapes: !is_after(&shapes),
+                    compensates: !is_after(&compensates),
+                };
                 if !is_pocket(stmt) {
                     fit.retain(|_| !may_write_offsets(stmt));
                     continue;
@@ -138,7 +144,37 @@ fn tell(pocket: &Result<Pocket, &'static str>, index: usize, stmt: &Stmt, contex
     }
 }
 
-/// What no block of the library puts in force.
+/// Which operations are meant.
+type Which = fn(Op) -> bool;
+
+/// What may not be in force at a round pocket: the codes that begin it, and those that end it.
+const IN_THE_WAY: [(Which, Which); 3] = [
+    (Op::is_cycle, |op| op == Op::CycleOff),
+    (
+        |op| matches!(op, Op::RotateOn | Op::ScaleOn | Op::MirrorOn),
+        // What ends one of the three may leave another.
+        |_| false,
+    ),
+    (|op| matches!(op, Op::RadiusLeft | Op::RadiusRight), |op| op == Op::RadiusOff),
+];
+
+/// The pockets, by program and place, that may come after such a code and before its end. Of a computed code it is told where it stands.
+fn after_one_of(module: &Module, on: Which, off: Which) -> BTreeSet<(usize, Span)> {
+    let begins = |stmt: &Stmt| stmt.kind.nc().is_some_and(|nc| nc.ops().any(on));
+    let ends = |stmt: &Stmt| {
+        // One that is skipped ends nothing.
+        stmt.site.skip.is_none() && stmt.kind.nc().is_some_and(|nc| nc.ops().any(off))
+    };
+    let mut found = BTreeSet::new();
+    behind(module, begins, ends, |index, stmt| {
+        if is_pocket(stmt) {
+            found.insert((index, stmt.site.span));
+        }
+    });
+    found
+}
+
+/// What no block that may come before puts in force.
 #[derive(Clone, Copy)]
 struct Never {
     turned: bool,
