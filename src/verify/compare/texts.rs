@@ -33,13 +33,18 @@ pub fn say_the_same(source: &str, target: &str, room: Option<usize>) -> bool {
 fn alike(source: &str, target: &str, room: Option<usize>) -> bool {
     let (ours, theirs) = (pieces(source), pieces(target));
     let same = theirs.len() <= ours.len() && ours.iter().zip(&theirs).all(|((a, ..), (b, ..))| agree(a, b));
-    let Some(((_, begin), cut_at)) = ours.get(theirs.len()).zip(room) else {
+    let Some(((missing, place), cut_at)) = ours.get(theirs.len()).zip(room) else {
         return same && ours.len() == theirs.len();
     };
     // What is missing begins after the signs that follow what was shown.
     let shown = theirs.len().checked_sub(1).and_then(|last| ours.get(last)).map_or(0, |(_, at)| at.end);
-    let between = source.get(shown..begin.start).map_or(0, |text| text.chars().count());
-    same && between >= cut_at
+    let signs = |upto: usize| source.get(shown..upto).map_or(0, |text| text.chars().count());
+    // A number is shown whole, or not at all.
+    let is_cut = match missing {
+        Piece::Number { .. } => signs(place.end) > cut_at,
+        _ => signs(place.start) >= cut_at,
+    };
+    same && is_cut
 }
 
 fn agree(a: &Piece, b: &Piece) -> bool {
