@@ -1,16 +1,21 @@
 //! Calls that run more often than the target's count says.
 //!
-//! Law: a loop that calls once and counts n down runs the callee n times. Side condition: n is a whole number; a count
-//! below 1 runs nothing here, and what it does on the source no maker's text says. Arguments are set before each run: if the
+//! Law: a loop that calls once and counts n down runs the callee n times. Side condition: n is a whole number, or is rounded as the
+//! source rounds its word; a count below 1 runs nothing here, and what it does on the source no maker's text says. Arguments are set before each run: if the
 //! source sets them once, and the macro may change them, the call is refused. Counter-example: `M98 P10 L150` on a control whose
 //! count has two digits.
 
+use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Block, Call, Callee, Class, Module, Place, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::{Ranges, Summaries};
+use crate::ir::{
+    Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, Stmt, StmtKind, TermKind,
+};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::frames::repeats::loops;
+use std::collections::BTreeSet;
 
 const REPEAT: &str = "repeat";
 
@@ -28,7 +33,44 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         count.is_some_and(|count| count.is_none_or(|count| !(0.0..=most).contains(&count)))
     };
     refuse(module, wanted, context);
+    if context.source.is(Question::IntegerWordRounds) {
+        round(module, wanted, context);
+    }
     module.programs.iter_mut().for_each(|program| loops(program, wanted));
+}
+
+/// Rounds counts that may have a fraction, as the source rounds the word.
+fn round(module: &mut Module, wanted: impl Fn(&Call) -> bool, context: &mut Context<'_>) {
+    let summaries = context.summaries(module);
+    for program in &mut module.programs {
+        let found = fractions(program, &summaries, &wanted);
+        for id in found {
+            if let TermKind::Call { call, .. } = &mut program.blocks[id.index()].term.kind {
+                call.count = call.count.take().map(|count| Expr::Call(Func::Round, [count].into()));
+            }
+        }
+    }
+}
+
+/// The blocks whose call has a count that may have a fraction.
+pub fn fractions(program: &Program, summaries: &Summaries, wanted: &impl Fn(&Call) -> bool) -> Vec<BlockId> {
+    let count = |block: &Block| match &block.term.kind {
+        TermKind::Call { call, .. } if wanted(call) => call.count.clone().filter(|count| !count.is_whole()),
+        _ => None,
+    };
+    if !program.blocks.iter().any(|block| count(block).is_some()) {
+        return Vec::new();
+    }
+    let mut vars = BTreeSet::new();
+    for count in program.blocks.iter().filter_map(count) {
+        count.variables(&mut |var| _ = vars.insert(var));
+    }
+    let ranges = Ranges::of_constants(program, summaries, vars);
+    let blocks = program.ids().zip(&program.blocks);
+    let open = blocks.filter(|(id, block)| {
+        count(block).is_some_and(|count| !ranges.at(*id, block.stmts.len(), &count).all_whole())
+    });
+    open.map(|(id, _)| id).collect()
 }
 
 /// Refuses the calls whose macro may change its arguments, of a source whose repeats do not set them again: the loop does.

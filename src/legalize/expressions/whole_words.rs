@@ -7,8 +7,9 @@
 use crate::canon::Func;
 use crate::dialect::Question;
 use crate::ir::analysis::Ranges;
-use crate::ir::{BlockId, Expr, Module, NcItem, StmtKind};
+use crate::ir::{BlockId, Call, Expr, Module, NcItem, StmtKind, TermKind};
 use crate::legalize::Context;
+use crate::legalize::calls::repeat_loops::fractions;
 use crate::legalize::features::{Feature, Features};
 
 /// True if words may be computed, and the source alone rounds them.
@@ -37,7 +38,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 }
             }
         }
-        changed |= !found.is_empty();
+        // Counts of calls are such words too.
+        let counts = fractions(program, &summaries, &|call: &Call| call.count.is_some());
+        changed |= !found.is_empty() || !counts.is_empty();
+        for id in counts {
+            if let TermKind::Call { call, .. } = &mut program.blocks[id.index()].term.kind {
+                call.count = call.count.take().map(|count| Expr::Call(Func::Round, [count].into()));
+            }
+        }
         for (id, at, place) in found {
             if let StmtKind::Nc(nc) = &mut program.blocks[id.index()].stmts[at].kind
                 && let NcItem::Word(_, value) = &mut nc.items[place]
