@@ -240,5 +240,21 @@ super::vocabulary! {
         Act7 = "act.7",
         /// Eighth word of such a code.
         Act8 = "act.8",
+        /// Ninth word of such a code.
+        Act9 = "act.9",
+        /// Tenth word of such a code.
+        Act10 = "act.10",
+        /// Eleventh word of such a code.
+        Act11 = "act.11",
+        /// Twelfth word of such a code.
+        Act12 = "act.12",
+        /// Thirteenth word of such a code.
+        Act13 = "act.13",
+        /// Fourteenth word of such a code.
+        Act14 = "act.14",
+        /// Fifteenth word of such a code.
+        Act15 = "act.15",
+        /// Sixteenth word of such a code.
+        Act16 = "act.16",
     }
 }

@@ -4,8 +4,24 @@ use super::Role;
 
 impl Role {
     /// The words of builders' codes that profiles name.
-    pub const ACT_WORDS: [Role; 8] =
-        [Role::Act1, Role::Act2, Role::Act3, Role::Act4, Role::Act5, Role::Act6, Role::Act7, Role::Act8];
+    pub const ACT_WORDS: [Role; 16] = [
+        Role::Act1,
+        Role::Act2,
+        Role::Act3,
+        Role::Act4,
+        Role::Act5,
+        Role::Act6,
+        Role::Act7,
+        Role::Act8,
+        Role::Act9,
+        Role::Act10,
+        Role::Act11,
+        Role::Act12,
+        Role::Act13,
+        Role::Act14,
+        Role::Act15,
+        Role::Act16,
+    ];
 
     /// Each axis word that has an increment of its own, and that increment.
     pub const STEPS: [(Role, Role); 4] =
@@ -23,6 +39,14 @@ impl Role {
                 | Role::Act6
                 | Role::Act7
                 | Role::Act8
+                | Role::Act9
+                | Role::Act10
+                | Role::Act11
+                | Role::Act12
+                | Role::Act13
+                | Role::Act14
+                | Role::Act15
+                | Role::Act16
         )
     }
 

@@ -82,6 +82,11 @@ pub enum Asks {
         /// The name: `chuck.clamp`.
         name: Arc<str>,
     },
+    /// Which code of the target does this: its builder may have given it one.
+    OpThere {
+        /// What it does.
+        op: Op,
+    },
     /// Whether the source's machine has a variable that its table has not.
     Variable {
         /// Its number.

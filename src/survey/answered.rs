@@ -59,6 +59,7 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let wired: Answer = Box::new(move |profile| super::signals::answer(&of, &signals, profile));
     let of_target = asked(target, source).into_iter().chain(start_there).chain([stand, wired]);
     let of_target = of_target.chain(settings(survey, Side::Target)).chain(words(survey, Side::Target));
+    let of_target = of_target.chain(codes_there(survey));
     let target = with(target, of_target.collect());
     let as_they_are = [answered.clone(), target.clone()];
     Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])
@@ -96,12 +97,22 @@ fn words<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answer>
 
 /// The codes for which the target would have to have one by their name: as if there were nothing to do there.
 fn left_out<'s>(survey: &'s Survey<'_>) -> impl Iterator<Item = Answer> + use<'s> {
-    survey.there.iter().map(|asked| -> Answer {
+    survey.there.iter().filter(|asked| asked.op.is_none()).map(|asked| -> Answer {
         let name = asked.name.clone();
         Box::new(move |profile| {
             let sites = profile.site.iter_mut().filter(|site| site.name.as_ref() == Some(&name));
             sites.for_each(|site| site.without = Some(Without::Omit));
         })
+    })
+}
+
+/// The codes of the target that do what its table has none for, with numbers that nobody uses.
+fn codes_there<'s>(survey: &'s Survey<'_>) -> impl Iterator<Item = Answer> + use<'s> {
+    let target = survey.controls[1];
+    let free = (0..1000).rev().filter(|number| target.code('M', f64::from(*number), &[]).is_none());
+    let ops = survey.there.iter().filter_map(|asked| asked.op);
+    ops.zip(free).map(|(op, number)| -> Answer {
+        Box::new(move |profile| profile.site.push(site(&format!("M{number}"), &[], Some(op))))
     })
 }
 

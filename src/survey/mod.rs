@@ -107,6 +107,9 @@ impl Outcomes {
     }
 }
 
+/// What a feed without a decimal point counts, which is known of millimetres a minute.
+const BARE_FEED: &str = "bare_feed";
+
 /// How often what was asked is answered, to see what is asked then.
 const ROUNDS: usize = 4;
 
@@ -251,14 +254,18 @@ impl Survey<'_> {
         look(&later)
     }
 
-    /// Takes out the question of the source's unit where it stands among what programs take from the machine.
+    /// Takes out the question of the source's unit where it stands among what programs take from the machine, and what hangs on its
+    /// answer: who answers metric is not asked.
     fn without_unit(&self, questions: &mut Questions<'_>) {
         let source = self.controls[0];
         let is_source =
             |of: &Control| of.name() == source.name() && of.profile().file == source.profile().file;
         if self.start.iter().any(AskedStart::is_unit) {
             for machine in questions.machines.iter_mut().filter(|machine| is_source(machine.control)) {
-                machine.facts.retain(|fact| fact.settled_by != Settled::UNITS);
+                machine.facts.retain(|fact| {
+                    fact.settled_by != Settled::UNITS
+                        && !matches!(&fact.settled_by, Settled::Setting { name, .. } if name == BARE_FEED)
+                });
             }
             questions.machines.retain(|machine| !machine.facts.is_empty());
         }

@@ -1,20 +1,24 @@
-//! Codes that the source's profile names and no code of the target does: which of its codes does the same, the target's profile says.
+//! Codes that the source's profile names and no code of the target does, and what the target's table has no code for: which of its
+//! codes does the same, the target's profile says.
 
 use super::Survey;
 use super::filled::{ASKS, TELLS, plain};
 use super::shape::{NAMED, Places};
 use super::site_rows::{in_braces, key, said};
+use crate::canon::Op;
 use crate::diag::Asks;
 use crate::dialect::{Control, SiteCode};
 use crate::library::ProgramReport;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-/// A name for which the target's profile has no code.
+/// A name, or an operation, for which the target has no code.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AskedThere {
     /// The name: `chuck.clamp`.
     pub name: String,
+    /// What it does, if the tables have a name for it and no profile.
+    pub op: Option<Op>,
     /// The code of the source.
     pub code: String,
     /// How many programs wait for it.
@@ -23,13 +27,20 @@ pub struct AskedThere {
     pub places: Vec<String>,
 }
 
+/// The programs that wait for a code, and the first places.
+type Waiting = (BTreeSet<usize>, Vec<String>);
+
 /// The names that programs wait for, those of most programs first.
 pub(super) fn asked(places: &Places<'_>, source: &Control, programs: &[ProgramReport]) -> Vec<AskedThere> {
-    let mut found: BTreeMap<String, (BTreeSet<usize>, Vec<String>)> = BTreeMap::new();
+    let mut found: BTreeMap<(String, Option<Op>), Waiting> = BTreeMap::new();
     for (at, program) in programs.iter().enumerate() {
         for finding in &program.diagnostics {
-            let Some(Asks::There { name }) = finding.asks.as_deref() else { continue };
-            let (waiting, named) = found.entry(name.to_string()).or_default();
+            let asked = match finding.asks.as_deref() {
+                Some(Asks::There { name }) => (name.to_string(), None),
+                Some(Asks::OpThere { op }) => (op.to_string(), Some(*op)),
+                _ => continue,
+            };
+            let (waiting, named) = found.entry(asked).or_default();
             waiting.insert(at);
             let place = places.at(program.file, finding.span);
             if named.len() < NAMED && !named.contains(&place) {
@@ -37,9 +48,10 @@ pub(super) fn asked(places: &Places<'_>, source: &Control, programs: &[ProgramRe
             }
         }
     }
-    let asked = found.into_iter().map(|(name, (programs, places))| {
-        let code = site(source, &name).map(|site| site.code.clone()).unwrap_or_default();
-        AskedThere { name, code, programs: programs.len(), places }
+    let asked = found.into_iter().map(|((name, op), (programs, places))| {
+        let of_table = || source.code_for(op?, &BTreeMap::new()).map(|row| row.code.clone());
+        let code = site(source, &name).map(|site| site.code.clone()).or_else(of_table).unwrap_or_default();
+        AskedThere { name, op, code, programs: programs.len(), places }
     });
     let mut asked: Vec<AskedThere> = asked.collect();
     asked.sort_by_key(|asked| std::cmp::Reverse(asked.programs));
@@ -65,11 +77,19 @@ pub(super) fn lines(survey: &Survey<'_>) -> String {
         let _ = writeln!(text, "{TELLS} {told}");
     }
     for asked in &survey.there {
-        let Some(site) = site(survey.controls[0], &asked.name) else { continue };
-        let words: Vec<String> =
-            site.words.iter().map(|(letter, name)| format!("{letter} = \"{name}\"")).collect();
+        let (does, meaning, words) = match (asked.op, site(survey.controls[0], &asked.name)) {
+            (Some(op), _) => {
+                let meaning = op.meaning().trim().trim_end_matches('.');
+                (format!("op = \"{op}\""), meaning, Vec::new())
+            }
+            (None, Some(site)) => {
+                let words = site.words.iter().map(|(letter, name)| format!("{letter} = \"{name}\""));
+                (format!("name = \"{}\"", asked.name), site.text.as_str(), words.collect())
+            }
+            (None, None) => continue,
+        };
         let by = if words.is_empty() { "" } else { "; its words by the letters of its code here" };
-        let keys = [Some(format!("name = \"{}\"", asked.name)), said(&site.text), in_braces(&words)];
+        let keys = [Some(does), said(meaning), in_braces(&words)];
         let keys: Vec<String> = keys.into_iter().flatten().collect();
         let programs =
             if asked.programs == 1 { String::new() } else { format!("{} programs: ", asked.programs) };
@@ -117,5 +137,31 @@ mod tests {
             !text.contains("name = \"chuck.clamp\", ") && text.contains("name = \"bar.feed\", "),
             "{text}"
         );
+    }
+
+    /// The table of the other control has no code for it, and its builder may have given it one.
+    #[test]
+    fn what_only_a_builder_has_a_code_for_is_a_row_of_the_targets_profile() {
+        let source = Control::from_profile("dialect = \"haas\"\nmachine = \"mill\"\n").unwrap();
+        let target = |text: &str| Control::from_profile(text).unwrap();
+        let inputs =
+            [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: "O1\nG21\nM88\nM89\nM30\n".into() }];
+        let plain = "dialect = \"fanuc\"\nmachine = \"mill\"\n";
+        let there = target(plain);
+        let made = survey(&inputs, &source, Some(&there));
+        assert!(
+            made.now.refused == 1 && made.answered.is_some_and(|then| then.refused == 0),
+            "{:?}",
+            made.stays
+        );
+        let text = filled(&made, Side::Target, Some(plain)).unwrap();
+        let line = "#? \"\" = { op = \"coolant.through.on\", text = \"Coolant through the spindle on\" } # M88 of the source; a.nc:3";
+        assert!(text.lines().any(|found| found == line), "{text}");
+        let answered =
+            text.replace("#? \"\" = { op = \"coolant.through.on\"", "M51 = { op = \"coolant.through.on\"");
+        let answered = answered
+            .replace("#? \"\" = { op = \"coolant.through.off\"", "M59 = { op = \"coolant.through.off\"");
+        let there = target(&answered);
+        assert_eq!(survey(&inputs, &source, Some(&there)).now.refused, 0);
     }
 }

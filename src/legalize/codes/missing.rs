@@ -63,6 +63,9 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         context.add(
             index,
             match (help(op).or(zero), stand_in) {
+                (Some(help), _) if op.auxiliary().is_some() => {
+                    finding.with_help(help).asking_for(Asks::OpThere { op })
+                }
                 (Some(help), _) => finding.with_help(help),
                 (None, Some((code, help))) => {
                     finding.with_help(help).asking_for(Asks::Code { code: code.into(), op: None })
