@@ -1,21 +1,23 @@
 //! Calls that run more often than the target's count says.
 //!
 //! Law: a loop that calls once and counts n down runs the callee n times. Side condition: n is a whole number, or is rounded as the
-//! source rounds its word; a count below 1 runs nothing here, and what it does on the source no maker's text says. Arguments are set before each run: if the
+//! source rounds its word; one that is vacant is 1, as the word is not there; a count below 1 runs nothing here, and what it does on the source no maker's text says. Arguments are set before each run: if the
 //! source sets them once, and the macro may change them, the call is refused. Counter-example: `M98 P10 L150` on a control whose
 //! count has two digits.
 
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::analysis::{Ranges, Summaries};
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::{Ranges, Summaries, Vacancy};
 use crate::ir::{
     Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, Stmt, StmtKind, TermKind,
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::registers::frames::repeats::loops;
-use std::collections::BTreeSet;
+use crate::legalize::registers::frames::repeats::loops_with;
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
 
 const REPEAT: &str = "repeat";
 
@@ -33,10 +35,40 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         count.is_some_and(|count| count.is_none_or(|count| !(0.0..=most).contains(&count)))
     };
     refuse(module, wanted, context);
+    let vacant = vacant(module, wanted);
     if context.source.is(Question::IntegerWordRounds) {
         round(module, wanted, context);
     }
-    module.programs.iter_mut().for_each(|program| loops(program, wanted));
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        loops_with(program, wanted, vacant.get(&index).unwrap_or(&BTreeSet::new()));
+    }
+}
+
+/// By program, the calls whose count may be vacant.
+fn vacant(module: &Module, wanted: impl Fn(&Call) -> bool) -> BTreeMap<usize, BTreeSet<Span>> {
+    let count = |block: &Block| match &block.term.kind {
+        TermKind::Call { call, .. } if wanted(call) => call.count.clone().filter(Expr::may_be_vacant),
+        _ => None,
+    };
+    let asks = |program: &Program| program.blocks.iter().any(|block| count(block).is_some());
+    let mut found: BTreeMap<usize, BTreeSet<Span>> = BTreeMap::new();
+    if !module.programs.iter().any(asks) {
+        return found;
+    }
+    let (summaries, given) = (Summaries::of(module), CalledPrograms::of(module).given(module));
+    let none = BTreeSet::new();
+    for (index, program) in module.programs.iter().enumerate().filter(|(_, program)| asks(program)) {
+        let vacancy = Vacancy::of(program, &summaries, given.get(&index).unwrap_or(&none));
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let Some(count) = count(block) else { continue };
+            vacancy.forward(id, &mut |at, may| {
+                if at == block.stmts.len() && may(&count) {
+                    found.entry(index).or_default().insert(block.term.site.span);
+                }
+            });
+        }
+    }
+    found
 }
 
 /// Rounds counts that may have a fraction, as the source rounds the word.

@@ -6,6 +6,7 @@
 //! refused.
 
 use super::levels::Levels;
+use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::upward_exposed::UpwardExposed;
@@ -69,6 +70,11 @@ const LEAVES_HELP: &str = "give what one run leaves for the next a common variab
 
 /// Makes loops of the repeated calls that are `wanted`.
 pub fn loops(program: &mut Program, wanted: impl Fn(&Call) -> bool) {
+    loops_with(program, wanted, &BTreeSet::new());
+}
+
+/// The same. Of calls at the places `vacant` the count may be vacant: that word is not there, so they run once.
+pub fn loops_with(program: &mut Program, wanted: impl Fn(&Call) -> bool, vacant: &BTreeSet<Span>) {
     let wanted = |call: &Call| call.count.is_some() && wanted(call);
     let repeated = |kind: &TermKind| matches!(kind, TermKind::Call { call, .. } if wanted(call));
     if !program.blocks.iter().any(|block| repeated(&block.term.kind)) {
@@ -87,14 +93,32 @@ pub fn loops(program: &mut Program, wanted: impl Fn(&Call) -> bool) {
         let Some(count) = call.count.take().filter(|count| count.constant() != Some(1.0)) else {
             return builder.end(TermKind::Call { call, next }, term.site);
         };
+        // A count that is rounded is counted down to below a half: 2.4 runs twice, and 2.5 three times.
+        let (count, (relation, least)) = match count {
+            Expr::Call(Func::Round, operands) if operands.len() == 1 => {
+                let count = operands.into_iter().next().unwrap_or(Expr::Number(1.0));
+                (count, (Relation::GreaterEqual, 0.5))
+            }
+            count => (count, (Relation::Greater, 0.0)),
+        };
         temps += 1;
         let left = Var { class: Class::Temp, number: temps };
         let set = |value| StmtKind::Assign { target: Place::Var(left), value };
         let span = || SourceInfo { span: term.site.span, ..SourceInfo::default() };
+        let is_none = vacant
+            .contains(&term.site.span)
+            .then(|| Cond::Compare(Relation::Equal, count.clone(), Expr::Vacant));
         builder.push(set(count), span());
         let (head, body, after) = (builder.fresh(), builder.fresh(), builder.fresh());
+        if let Some(cond) = is_none {
+            let once = builder.fresh();
+            builder.end(TermKind::Branch { cond: Box::new(cond), then: once, otherwise: head }, span());
+            builder.start(once);
+            builder.push(set(Expr::Number(1.0)), span());
+            builder.end(TermKind::Jump(head), SourceInfo::default());
+        }
         builder.start(head);
-        let cond = Cond::Compare(Relation::Greater, Expr::Var(left), Expr::Number(0.0));
+        let cond = Cond::Compare(relation, Expr::Var(left), Expr::Number(least));
         builder.end(TermKind::Branch { cond: Box::new(cond), then: body, otherwise: next }, span());
         builder.start(body);
         let one_less = Expr::binary(BinOp::Sub, Expr::Var(left), Expr::Number(1.0));
