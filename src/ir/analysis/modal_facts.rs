@@ -2,7 +2,8 @@
 //!
 //! A forward analysis over all programs at once: the state at a program's entry
 //! joins the states at all its calls, and the state after a call is the
-//! callee's at its returns, but for what the callee does not touch: that is as its caller had it; a return to a sequence number goes on there as well. A
+//! callee's at its returns, but for what the callee does not touch: that is as
+//! its caller had it. A return to a sequence number goes on there as well. A
 //! computed call enters every program that it may be meant for. What a program starts in that has no known caller or ends the
 //! run, and what an unknown callee leaves, is not known.
 
