@@ -237,11 +237,9 @@ fn places(nc: &Nc, place: &Place<'_>) -> Ways {
     let depth = |role: Role| role == Role::Z && words.op(Group::Distance) != Some(Op::Incremental);
     let cycle = words.op(Group::Cycle);
     // A hole is placed by the words of any axis, but none by a block that goes to the reference position, or that says how it
-    // moves.
-    let drills_none = |op: Op| {
-        matches!(op, Op::ReferenceReturn | Op::Reference2) || op.group() == Group::Motion && !op.is_cycle()
-    };
-    let moves = nc.ops().any(drills_none);
+    // moves and names no cycle.
+    let goes = |op: Op| matches!(op, Op::ReferenceReturn | Op::Reference2) || op.group() == Group::Motion;
+    let moves = nc.ops().any(goes) && !nc.ops().any(Op::is_cycle);
     let hole = |role: Role| !moves && role.is_axis() && cycle.map_or(place.drills, Op::is_cycle);
     let roles = nc.items.iter().filter_map(|item| match item {
         NcItem::Word(role, _) => Some(*role),
