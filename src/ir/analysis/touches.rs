@@ -1,4 +1,4 @@
-//! What the statements of a routine may change of what is in force: a call leaves all else as its caller had it.
+//! Which modes a routine may change: a call leaves all others as its caller had them.
 
 use super::cfg::reachable;
 use crate::canon::{Group, Op, Role};
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A program entered at a block.
 pub(super) type Place = (usize, BlockId);
 
-/// What statements may change of what is in force.
+/// The modes that some statements may change.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Touches {
     /// Everything: a computed code, a modal call, or something that the library does not have.

@@ -1,7 +1,7 @@
 //! Messages longer than the target shows.
 //!
-//! Law: the message is cut where the target's display ends, or before the number that stands there, for 90 is no 9; the
-//! whole of it stands in a comment beside; when
+//! Law: the message is cut where the target's display ends, and the whole of it stands in a comment beside. A number that does not
+//! fit is left out whole: 90 must not become 9. When
 //! and why the machine stops does not change. The variable that an operator is asked for goes first where it would be cut
 //! off.
 
@@ -43,9 +43,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 fn cut(text: &str, most: usize) -> &str {
     let end = text.char_indices().nth(most).map_or(text.len(), |(at, _)| at);
     let (shown, rest) = text.split_at(end);
-    let goes_on = rest.starts_with(|sign: char| sign.is_ascii_digit() || sign == '.');
     let of_number = |sign: char| sign.is_ascii_digit() || sign == '.';
-    let kept = if goes_on { shown.trim_end_matches(of_number) } else { shown };
+    let kept = if rest.starts_with(of_number) { shown.trim_end_matches(of_number) } else { shown };
     // The sign of the number goes with it, and a text that is a number alone stays as it is.
     let kept = if kept.len() < shown.len() { kept.trim_end_matches(['-', '+']) } else { kept };
     let kept = kept.trim_end();

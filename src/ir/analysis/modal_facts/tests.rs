@@ -113,7 +113,7 @@ fn run(module: &Module, program: usize, seed: &mut u64) -> Vec<((usize, BlockId)
     came
 }
 
-/// What is said of a block holds in each run that comes to it, whoever called.
+/// What is found of a block holds in each run that comes to it, from whichever caller.
 #[test]
 fn what_is_found_holds_in_every_run() {
     let mut looked = 0;
