@@ -90,8 +90,8 @@ const NOWHERE: f64 = 1e-9;
 /// from the next move along its axis on.
 /// Which tool is made ready shows at the next change.
 ///
-/// What `is_left_out` on the other side finds nothing there, so nothing that was found running counts before it. If the other
-/// side has no feed per turn (`per_minute`), a cut feeds as fast as it does at the speed of the spindle.
+/// What `is_left_out` on the other side finds nothing there, so no setting counts before it. If the other side has no feed
+/// per turn (`per_minute`), a cut feeds as fast as it does at the speed of the spindle.
 fn observe<'r>(
     side: &Library<'_>,
     run: &'r Run,
@@ -126,17 +126,16 @@ fn observe<'r>(
             seen.waiting.push((kind, event));
             continue;
         }
-        // Which settings stand before a mode of corners and which after it nobody could tell.
-        if !is_mode(&event.what) {
+        // Which settings stand before a mode of corners, or before what is left out, and which after it nobody could tell.
+        if !is_mode(&event.what) && !is_left_out(&event.what) {
             let (back, tool) = (returns(&event.what), finds_tool(&event.what));
             let across = is_across(&event.what);
-            let idle = is_idle(&event.what) || is_left_out(&event.what);
             seen.settle(|kind, event| match kind {
                 Setting::Work => back,
                 Setting::Length => !across,
                 Setting::Ready => tool,
                 // What was found running is nothing that counts before an idle move.
-                Setting::Spindle | Setting::Coolant => !(idle && event.told == Told::Found),
+                Setting::Spindle | Setting::Coolant => !(is_idle(&event.what) && event.told == Told::Found),
                 _ => true,
             });
         }

@@ -172,6 +172,12 @@ impl<'p, 'r> Pairs<'p, 'r> {
                 (Some(_), None) => "the target does less than the source".to_owned(),
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
+            // Settings wait until after it, so what looks at those that come next looks past it.
+            if let Some(text) = a.and_then(|a| builders::is_left_out(self.source, self.target, &a.what)) {
+                self.found.replaced.insert((Op::Act, text));
+                i += 1;
+                continue;
+            }
             let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
             let passed = as_long([here, there], cut).unwrap_or_else(|| before_alarm([here, there]));
             if passed != [0; 2] {
@@ -223,8 +229,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             } else if b.is_some_and(|b| self.passes(1, b)) {
                 j += 1;
             } else {
-                let (source, target) = (told_at(here), told_at(there));
-                let difference = Difference::new(source, target, what);
+                let difference = Difference::new(told_at(here), told_at(there), what);
                 match (a, b) {
                     (Some(a), Some(b)) if self.drifts(a, b) => {}
                     (Some(a), Some(b))
@@ -312,10 +317,6 @@ impl<'p, 'r> Pairs<'p, 'r> {
         }
         if let Some(replaced) = is_left_out(self.target, what) {
             self.found.replaced.insert(replaced);
-            return true;
-        }
-        if let Some(text) = builders::is_left_out(self.source, self.target, what) {
-            self.found.replaced.insert((Op::Act, text));
             return true;
         }
         let leaves = returns_to_caller(what);

@@ -182,22 +182,41 @@ fn a_long_program_is_compared_with_other_values_too() {
     differs("fanuc", &program(2), &program(3), "the rapid move goes elsewhere");
 }
 
-/// A builder's code that the source's profile leaves out finds nothing on the target: a spindle that runs when the program begins is told by what ends it,
-/// on both sides alike.
-#[test]
-fn a_code_that_is_left_out_finds_no_spindle_running() {
+/// Two programs between machines of which the source leaves a builder's code out.
+fn leaving_out(source: &str, target: &str) -> Vec<ProgramCertificate> {
     let site = "[[site]]\ncode = \"M31\"\nname = \"conveyor\"\ndo = \"omit\"\ntext = \"conveyor\"\n";
     let profile = format!("dialect = \"haas\"\n{site}");
     let controls = [Control::from_profile(&profile).unwrap(), Control::plain("fanuc").unwrap()];
     let execute = ["haas", "fanuc"].map(|name| registry::find(name).unwrap().execute.unwrap());
-    let found = |target: &str| {
-        let parsed = [("O1\nM31\nM5\nM30\n", &controls[0]), (target, &controls[1])]
-            .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
-        let files = [0, 1].map(|at| [LoadedFile { name: "a.nc", parsed: &parsed[at] }]);
-        let [source, target] = [0, 1].map(|at| Side::new(&controls[at], execute[at], &files[at]));
-        verified([&source, &target], &SymbolMap::default(), &Assumptions::new()).remove(0)
-    };
+    let parsed = [(source, &controls[0]), (target, &controls[1])]
+        .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
+    let files = [0, 1].map(|at| [LoadedFile { name: "a.nc", parsed: &parsed[at] }]);
+    let [source, target] = [0, 1].map(|at| Side::new(&controls[at], execute[at], &files[at]));
+    verified([&source, &target], &SymbolMap::default(), &Assumptions::new())
+}
+
+/// A builder's code that the source's profile leaves out finds nothing on the target: a spindle that runs when the program
+/// begins is told by what ends it, on both sides alike.
+#[test]
+fn a_code_that_is_left_out_finds_no_spindle_running() {
+    let found = |target: &str| leaving_out("O1\nM31\nM5\nM30\n", target).remove(0);
     let rests = |found: &ProgramCertificate| found.reasons.iter().any(|reason| reason.why == Why::EntryState);
     assert!(!rests(&found("O1\nM5\nM30\n")));
     assert_eq!(found("O1\nG4P1.\nM5\nM30\n").outcome, Outcome::Different);
+}
+
+/// The spindle is started and stopped on both sides before the alarm. That the code stood between shows on the source alone.
+#[test]
+fn settings_before_a_code_that_is_left_out_count_after_it() {
+    let program = |start: &str, code: &str, stop: &str| {
+        format!(
+            "O1\nG21G90G17G54G40G49G80\nT1M6\n{start}\n{code}G65P2\nM30\n\
+             O2\nM9\n{code}{stop}IF[#522EQ5]GOTO900\nM99\nN900#3000=51(SETTER)\n"
+        )
+    };
+    let source = program("S500M3", "M31\n", "M5\n");
+    let found = |target: &str| leaving_out(&source, target)[0].outcome;
+    assert_ne!(found(&program("S500M3", "", "M5\n")), Outcome::Different);
+    assert_eq!(found(&program("S500M3", "", "")), Outcome::Different);
+    assert_eq!(found(&program("S500M4\nG1Z5.F90.", "", "M5\n")), Outcome::Different);
 }
