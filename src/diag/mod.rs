@@ -87,6 +87,11 @@ pub enum Asks {
         /// What it does.
         op: Op,
     },
+    /// What becomes of a code that switches an output: how it is written, the block says.
+    Output {
+        /// Whether it switches on or off.
+        op: Op,
+    },
     /// Whether the source's machine has a variable that its table has not.
     Variable {
         /// Its number.

@@ -1,8 +1,9 @@
 //! What programmers wrote beside a code: the comment of its block, or of the block before, and the words of its block.
 
+use crate::canon::{Group, Op, Role};
 use crate::dialect::{Control, Machine};
 use crate::library::Input;
-use crate::syntax::{Block, ItemKind, parse_file};
+use crate::syntax::{Block, ExprKind, ItemKind, Word, parse_file};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
@@ -40,15 +41,30 @@ pub(super) fn beside(input: &Input, control: &Control, places: &[Span]) -> Vec<B
 }
 
 /// The letters of a block with one code, but for those that mean something beside any code: beside an M code that is an axis,
-/// a feed, a speed and a tool too.
+/// a feed, a speed and a tool too. Codes that only say how words count, and those of compensation with its own word, may stand there.
 fn letters(block: &Block, control: &Control) -> Vec<char> {
-    let words = block.items.iter().filter_map(|item| match &item.kind {
-        ItemKind::Word(word) if !word.comma => Some(word.letter),
-        _ => None,
-    });
-    let words: Vec<char> = words.collect();
-    let mut codes = words.iter().filter(|letter| "GM".contains(**letter));
+    let words = || {
+        block.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Word(word) if !word.comma => Some(word),
+            _ => None,
+        })
+    };
+    let group = |word: &&Word| {
+        let ExprKind::Number(number) = &word.value.as_ref()?.kind else { return None };
+        Some(control.code(word.letter, number.value, &[])?.op.group())
+    };
+    let is_aside = |word: &&Word| {
+        use Group::{Distance, FeedMode, Plane, RadiusComp, ReturnPlane, Units};
+        group(word).is_some_and(|group| {
+            matches!(group, Distance | FeedMode | Plane | RadiusComp | ReturnPlane | Units)
+        })
+    };
+    let compensates = words().any(|word| group(&word) == Some(Group::RadiusComp));
+    let mut codes =
+        words().filter(|word| "GM".contains(word.letter) && !is_aside(word)).map(|word| word.letter);
     let (Some(code), None) = (codes.next(), codes.next()) else { return Vec::new() };
+    let words: Vec<char> =
+        words().map(|word| word.letter).filter(|letter| !(compensates && *letter == 'D')).collect();
     let lathe = control.machine() == Machine::Lathe;
     let turns = |letter: char| {
         control.profile().axes.iter().flatten().any(|axis| format!("{axis:?}") == letter.to_string())
@@ -58,12 +74,31 @@ fn letters(block: &Block, control: &Control) -> Vec<char> {
         'C' | 'H' => lathe || turns(letter),
         letter => turns(letter),
     };
-    if *code == 'M' && words.iter().any(|letter| is_axis(*letter)) {
+    if code == 'M' && words.iter().any(|letter| is_axis(*letter)) {
         return Vec::new();
     }
     // Beside a G code of a builder a feed, a speed or a tool is asked too: a profile has to name it.
-    let elsewhere = if *code == 'M' { "GMNOSFT" } else { "GMNO" };
+    let elsewhere = if code == 'M' { "GMNOSFT" } else { "GMNO" };
     words.into_iter().filter(|letter| !elsewhere.contains(*letter)).collect()
+}
+
+/// The code that switches an output in the block of a place, with its word as it is written: `M59 P1134`.
+pub(super) fn switch(input: &Input, control: &Control, place: Span, op: Op) -> Option<String> {
+    let parsed = parse_file(&input.bytes, control.entry().parse);
+    let at = parsed.blocks.partition_point(|block| block.span.end <= place.start);
+    let words = || {
+        let items = parsed.blocks.get(at).into_iter().flat_map(|block| &block.items);
+        items.filter_map(|item| match &item.kind {
+            ItemKind::Word(word) if !word.comma => {
+                Some((word.letter, String::from_utf8_lossy(item.span.of(&input.bytes)).into_owned()))
+            }
+            _ => None,
+        })
+    };
+    let row = control.dialect().codes.iter().find(|row| row.op == op)?;
+    let letter = row.words.iter().find(|(_, role)| **role == Role::Output)?.0;
+    let (_, number) = words().find(|(found, _)| letter.starts_with(*found))?;
+    Some(format!("{} {}", row.code, number.split_whitespace().collect::<String>()))
 }
 
 fn is_comment(block: &Block) -> bool {
@@ -105,5 +140,10 @@ mod tests {
         let found = beside(&input, &control, &[Span { start: 0, end: 3 }, Span { start: 22, end: 25 }]);
         let letters: Vec<String> = found.into_iter().map(|one| one.letters.into_iter().collect()).collect();
         assert_eq!(letters, ["PXZF", "P"]);
+        let bytes = b"G41 G150 P211 X1. Q.25 D01 F25.\nG77 M3 P1\n".to_vec();
+        let input = Input { path: "a.nc".into(), name: "a.nc".into(), bytes };
+        let found = beside(&input, &control, &[Span { start: 4, end: 8 }, Span { start: 32, end: 35 }]);
+        let letters: Vec<String> = found.into_iter().map(|one| one.letters.into_iter().collect()).collect();
+        assert_eq!(letters, ["PXQF", ""]);
     }
 }

@@ -1,6 +1,6 @@
 //! Codes of which a machine profile must say what the builder made of them.
 
-use super::beside::{Beside, beside, most};
+use super::beside::{Beside, beside, most, switch};
 use super::shape::{NAMED, Places};
 use crate::canon::Op;
 use crate::diag::{Asks, Diagnostic, Severity};
@@ -34,7 +34,16 @@ pub struct AskedCode {
 
 /// True of a finding that waits for what a code does.
 pub(super) fn asks_code(finding: &Diagnostic) -> bool {
-    matches!(finding.asks.as_deref(), Some(Asks::Code { .. }))
+    matches!(finding.asks.as_deref(), Some(Asks::Code { .. } | Asks::Output { .. }))
+}
+
+/// The code that a finding waits for, and what it is likely to do.
+fn code_of(finding: &Diagnostic, input: &Input, source: &Control) -> Option<(String, Option<Op>)> {
+    match finding.asks.as_deref()? {
+        Asks::Code { code, op } => Some((code.to_string(), *op)),
+        Asks::Output { op } => Some((switch(input, source, finding.span, *op)?, None)),
+        _ => None,
+    }
 }
 
 /// The codes that programs wait for; what frees most programs is first.
@@ -50,8 +59,7 @@ pub(super) fn asked(
     for (at, program) in programs.iter().enumerate() {
         let mut asks = BTreeSet::new();
         for finding in &program.diagnostics {
-            if let Some(Asks::Code { code, op }) = finding.asks.as_deref() {
-                let code = code.to_string();
+            if let Some((code, op)) = code_of(finding, &inputs[program.file], source) {
                 ops.extend(op.map(|op| (code.clone(), op)));
                 found.entry(code.clone()).or_default().push((at, finding.span));
                 asks.insert(code);
@@ -100,7 +108,8 @@ pub(super) fn asked(
                 Vec::new()
             } else {
                 let letters = all.iter().filter_map(text).flat_map(|beside| beside.letters.iter().copied());
-                letters.collect::<BTreeSet<_>>().into_iter().collect()
+                let own = |letter: &char| code.split(' ').skip(1).any(|word| word.starts_with(*letter));
+                letters.filter(|letter| !own(letter)).collect::<BTreeSet<_>>().into_iter().collect()
             },
             places,
             code,
@@ -109,4 +118,35 @@ pub(super) fn asked(
     let mut asked: Vec<AskedCode> = asked.collect();
     asked.sort_by_key(|code| std::cmp::Reverse((code.frees, code.programs)));
     asked
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::dialect::{Control, Side};
+    use crate::library::Input;
+    use crate::survey::{filled, survey};
+
+    /// An output is wired to something else on another machine, and a code of its builder may switch what it did.
+    #[test]
+    fn outputs_are_asked_by_the_code_that_switches_them() {
+        let plain = "dialect = \"haas\"\nmachine = \"mill\"\n";
+        let target = Control::from_profile("dialect = \"fanuc\"\nmachine = \"mill\"\n").unwrap();
+        let text = "O1\nG21\nM59 P1134 (PROBE ON)\nG4 P1.\nM69 P1134\nM30\n";
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: text.into() }];
+        let source = Control::from_profile(plain).unwrap();
+        let made = survey(&inputs, &source, Some(&target));
+        assert_eq!((made.now.refused, made.answered.map(|then| then.refused)), (1, Some(0)));
+        let asked = filled(&made, Side::Source, Some(plain)).unwrap();
+        for line in [
+            "#? \"M59 P1134\" = { target = \"\", text = \"PROBE ON\" } # a.nc:3; as in: M59 P1134 (PROBE ON)",
+            "#? \"M69 P1134\" = { target = \"\" } # a.nc:5; as in: M69 P1134",
+        ] {
+            assert!(asked.lines().any(|found| found == line), "{line} in {asked}");
+        }
+        let answered = asked
+            .replace("#? \"M59 P1134\" = { target = \"\"", "\"M59 P1134\" = { target = \"M62\"")
+            .replace("#? \"M69 P1134\" = { target = \"\"", "\"M69 P1134\" = { target = \"M63\"");
+        let (source, target) = Control::meeting(Control::from_profile(&answered).unwrap(), target).unwrap();
+        assert_eq!(survey(&inputs, &source, Some(&target)).now.refused, 0);
+    }
 }

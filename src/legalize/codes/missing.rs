@@ -3,10 +3,10 @@
 //! Runs last of the passes that rewrite: what is left without a row in the target's table is refused here,
 //! in the words of the machine and not of a table.
 
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question};
-use crate::ir::{Program, StmtKind};
+use crate::ir::{Nc, Program, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,7 +32,18 @@ fn has(control: &Control) -> BTreeSet<Op> {
 /// True where an operation stands that the target has not.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let had = had(context);
-    features.any_op(|op| !had.contains(&op))
+    features.any_op(|op| !had.contains(&op) || is_output(op))
+}
+
+fn is_output(op: Op) -> bool {
+    matches!(op, Op::OutputOn | Op::OutputOff)
+}
+
+/// True where the target has no code that switches the output of this block so.
+fn lacks_output(nc: &Nc, op: Op, target: &Control) -> bool {
+    let number = nc.word(Role::Output).and_then(|number| number.constant());
+    let operands = number.map(|number| BTreeMap::from([(Role::Output, number)]));
+    is_output(op) && target.code_for(op, &operands.unwrap_or_default()).is_none()
 }
 
 /// Refuses what the target cannot do.
@@ -41,7 +52,8 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     let mut found = Vec::new();
     for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
         let StmtKind::Nc(nc) = &stmt.kind else { continue };
-        found.extend(nc.ops().filter(|op| !had.contains(op)).map(|op| (stmt.site.span, op)));
+        let lacks = |op: &Op| !had.contains(op) || lacks_output(nc, *op, context.target);
+        found.extend(nc.ops().filter(lacks).map(|op| (stmt.site.span, op)));
     }
     for (span, op) in found {
         // A hole, a return or a shift that stayed as it was, for a reason that is told, has the source's code still.
@@ -63,6 +75,9 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         context.add(
             index,
             match (help(op).or(zero), stand_in) {
+                _ if is_output(op) => {
+                    finding.with_help(switches(op, context.source)).asking_for(Asks::Output { op })
+                }
                 (Some(help), _) if op.auxiliary().is_some() => {
                     finding.with_help(help).asking_for(Asks::OpThere { op })
                 }
@@ -95,6 +110,16 @@ fn stand_in(op: Op, source: &Control) -> Option<(String, String)> {
          the target's builder has too, or target, or do = \"omit\" or \"stop\""
     );
     Some((code, help))
+}
+
+/// What becomes of an output, which another machine has elsewhere.
+fn switches(op: Op, source: &Control) -> String {
+    let row = source.dialect().codes.iter().find(|row| row.op == op);
+    let code = row.map_or("M59", |row| row.code.as_str());
+    format!(
+        "if a code of the target's builder switches what this output does, name it in the source's profile, under [codes], with the number as it is \
+         written: \"{code} P1134\" = {{ target = \"M62\", text = \"probe on\" }}; else write do = \"omit\", \"stop\" or \"alarm\" in place of target"
+    )
 }
 
 /// What becomes of a zero that a program sets from where the tool stands.
