@@ -7,7 +7,8 @@
 //! it cuts: where it is switched off, the target then does what the source does where it is on. What a stop ends
 //! matters after it where the program cuts before it says itself what runs: then the facts that no source confirms are
 //! named. A change that the target passes over where the tool is in the spindle ends nothing there, unless it is known to be another.
-//! What a message or a stop leaves running, and the target's stop ends, is started again after it where it is known, after an optional stop too.
+//! What a message or a stop leaves running, and the target's stop ends, is started again after it where it is known, after an optional stop too,
+//! if the tool moves or a wait comes before the program says itself what runs.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
 mod after;
@@ -359,7 +360,9 @@ impl Place<'_> {
             let again = self.state.op(ends(running).0).filter(|op| starts(running).contains(op));
             let known = sure && here.answer != Some(true) && !self.lost[running as usize];
             match again.filter(|_| known) {
-                Some(op) if matters => self.again.push((number - 1, op)),
+                Some(op) if self.after.shows(self.index, self.id, number, running) => {
+                    self.again.push((number - 1, op));
+                }
                 None if here.answer == Some(false) && there.answer != Some(false) && matters => {
                     self.tell(pause, there, span, context);
                 }

@@ -11,7 +11,7 @@ use super::letters;
 use super::loose::{Found, Order, farthest};
 use super::observe::{Act, observed};
 use super::paths::{apart, ends, goes_nowhere, leaves};
-use super::pauses::{Runs, ended_meanwhile, ends_cycle, may_do_so, may_turn, starts_again};
+use super::pauses::{Runs, ends_cycle, ends_earlier, may_do_so, may_turn};
 use super::renamed::Renaming;
 use super::roughing;
 use super::shown::{as_messages, end_differs, lacks_messages, texts, without_outputs};
@@ -214,8 +214,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
                         || runs[side].lets_go(acts)
                         || runs[side].stays_open(act)
                         || runs[side].is_idle_speed(acts)
-                        || (side == 1 && starts_again(runs, act, self.target))
-                        || (side == 1 && ended_meanwhile(&runs[0], acts, self.target))
+                        || ends_earlier(runs, side, [acts, others], self.target)
                 })
             };
             if runs(0, here, there, &self.runs) {

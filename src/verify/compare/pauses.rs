@@ -74,6 +74,13 @@ impl Runs {
         turns(what).is_some() && [&self.last, &self.spindle].map(turns).contains(&turns(what))
     }
 
+    fn of(&self, running: Running) -> &EventKind {
+        match running {
+            Running::Spindle => &self.spindle,
+            Running::Coolant => &self.coolant,
+        }
+    }
+
     /// The coolant.
     pub fn coolant(&self) -> Op {
         match self.coolant {
@@ -154,30 +161,63 @@ impl Runs {
     }
 }
 
-/// True if the target starts again what its stop ended, and what ran on the source before the stop, or before one of which
-/// nobody knows what it ended there; `side` is the target, which may have another code for it.
-pub fn starts_again([source, target]: &[Runs; 2], act: &Act<'_>, side: &Side<'_>) -> bool {
-    let Some(running) = runs(&act.what) else { return false };
-    let ran = match running {
-        Running::Spindle => &source.spindle,
-        Running::Coolant => &source.coolant,
-    };
-    let open = |side: &Runs| side.open[running as usize];
-    let is_same = ran == &*act.what || stands_for(side, ran, &act.what).is_some();
-    is_same && target.by_stop[running as usize] && !open(target)
+/// True for the next act of a side, and what comes after it on both, if the target's stop ended what goes on at the source's:
+/// the end there, what the target starts again, and what the source ends later. `target` may have another code for it.
+pub fn ends_earlier(
+    runs: &[Runs; 2],
+    side: usize,
+    [acts, others]: [&[Act<'_>]; 2],
+    target: &Side<'_>,
+) -> bool {
+    let Some((act, rest)) = acts.split_first() else { return false };
+    match side {
+        0 => ended_before(&runs[1], act, others),
+        _ => {
+            ends_cycles(&runs[1], act)
+                || starts_again(runs, act, target)
+                || ended_meanwhile(&runs[0], act, [rest, others], target)
+        }
+    }
 }
 
-/// True for what a stop of the target alone ends, and the target starts again before the tool moves: on the source it goes on.
-pub fn ended_meanwhile(source: &Runs, acts: &[Act<'_>], side: &Side<'_>) -> bool {
-    let Some((act, rest)) = acts.split_first() else { return false };
+/// True if the target starts again what its stop ended, and what ran on the source before the stop, or before one of which
+/// nobody knows what it ended there; `side` is the target, which may have another code for it.
+fn starts_again([source, target]: &[Runs; 2], act: &Act<'_>, side: &Side<'_>) -> bool {
+    let Some(running) = runs(&act.what) else { return false };
+    let open = |side: &Runs| side.open[running as usize];
+    is_same(source.of(running), &act.what, side) && target.by_stop[running as usize] && !open(target)
+}
+
+/// True for what a stop of the target alone ends, if no move shows it: before the tool moves the target starts it again as it goes on
+/// on the source, or the source ends it too, or both say the same of it.
+fn ended_meanwhile(source: &Runs, act: &Act<'_>, [rest, others]: [&[Act<'_>]; 2], side: &Side<'_>) -> bool {
     let Some(running) = runs(&act.what).filter(|_| act.told == Told::Implied) else { return false };
-    let ran = match running {
-        Running::Spindle => &source.spindle,
-        Running::Coolant => &source.coolant,
+    let next = |acts: &[Act<'_>]| {
+        let dwells = |act: &Act<'_>| matches!(*act.what, EventKind::Dwell { .. });
+        let mut stays = acts.iter().take_while(|act| !is_move(&act.what) && !dwells(act));
+        stays.find(|act| runs(&act.what) == Some(running)).map(|act| (*act.what).clone())
     };
-    let stays = rest.iter().take_while(|act| !is_move(&act.what));
-    let next = stays.into_iter().find(|act| runs(&act.what) == Some(running));
-    next.is_some_and(|act| ran == &*act.what || stands_for(side, ran, &act.what).is_some())
+    let (here, there) = (next(others), next(rest));
+    let again = |ran: &EventKind| there.as_ref().is_some_and(|again| is_same(ran, again, side));
+    again(source.of(running)) || here.is_some_and(|here| here == *act.what || again(&here))
+}
+
+/// True for a stop that ends what a cycle alone may have left turning: by the program it stood.
+fn ends_cycles(target: &Runs, act: &Act<'_>) -> bool {
+    act.told == Told::Implied && target.spindle == *act.what && target.last != target.spindle
+}
+
+/// True for the end of what a stop of the target has ended, and the target's next act does not start again.
+fn ended_before(target: &Runs, act: &Act<'_>, others: &[Act<'_>]) -> bool {
+    runs(&act.what).is_some_and(|running| {
+        let at = running as usize;
+        let again = others.first().is_some_and(|other| runs(&other.what) == Some(running));
+        !again && target.by_stop[at] && !target.open[at] && target.of(running) == &*act.what
+    })
+}
+
+fn is_same(ran: &EventKind, what: &EventKind, side: &Side<'_>) -> bool {
+    ran == what || stands_for(side, ran, what).is_some()
 }
 
 /// True for the same new speed on both sides, if nobody knows whether one of the spindles turns, and the other stands

@@ -15,6 +15,16 @@ enum Step {
     Says,
     /// It may cut.
     Cuts,
+    /// It moves without a cut, or waits.
+    Goes,
+    /// It says what runs in a block that moves: the move may come first.
+    SaysBeside,
+}
+
+impl Step {
+    fn says(self) -> bool {
+        matches!(self, Self::Says | Self::SaysBeside)
+    }
 }
 
 /// The blocks of a library, as far as spindle and coolant go.
@@ -62,8 +72,8 @@ impl<'m> After<'m> {
                 state.step(stmt);
                 let steps = steps(&stmt.kind, &state);
                 match stmt.site.skip {
-                    // It may be passed over: what it says does not count, what it cuts does.
-                    Some(_) => steps.map(|step| step.filter(|step| *step == Step::Cuts)),
+                    // It may be passed over: what it says does not count, what it moves does.
+                    Some(_) => steps.map(|step| step.filter(|step| !step.says())),
                     None => steps,
                 }
             });
@@ -92,14 +102,23 @@ impl<'m> After<'m> {
     /// True where some way from the statement `number` of a block cuts before it says what runs. What a caller does
     /// after a return is taken to cut.
     pub fn matters(&self, program: usize, block: BlockId, number: usize, running: Running) -> bool {
-        let mut seen = BTreeSet::new();
-        let (cuts, returns) = self.walk((program, block), number, running, &mut seen, 0);
-        cuts || returns
+        self.comes_to(&[Step::Cuts], (program, block), number, running)
     }
 
-    /// Whether a way cuts, and whether one returns before anything was said. Calls deeper than the bound may do both.
+    /// True where some way moves or waits before it says what runs, a cut or not.
+    pub fn shows(&self, program: usize, block: BlockId, number: usize, running: Running) -> bool {
+        self.comes_to(&[Step::Cuts, Step::Goes, Step::SaysBeside], (program, block), number, running)
+    }
+
+    fn comes_to(&self, wanted: &[Step], from: (usize, BlockId), number: usize, running: Running) -> bool {
+        let (comes, returns) = self.walk(wanted, from, number, running, &mut BTreeSet::new(), 0);
+        comes || returns
+    }
+
+    /// Whether a way comes to such a step, and whether one returns before anything was said. Calls deeper than the bound may do both.
     fn walk(
         &self,
+        wanted: &[Step],
         from: (usize, BlockId),
         number: usize,
         running: Running,
@@ -111,9 +130,9 @@ impl<'m> After<'m> {
         while let Some(((program, id), first)) = work.pop() {
             let Some((steps, end)) = self.block(program, id) else { return (true, true) };
             let rest = steps.iter().skip(first).filter_map(|steps| steps[running as usize]);
-            match rest.into_iter().next() {
-                Some(Step::Says) => continue,
-                Some(Step::Cuts) => return (true, false),
+            match rest.into_iter().find(|step| step.says() || wanted.contains(step)) {
+                Some(step) if wanted.contains(&step) => return (true, false),
+                Some(_) => continue,
                 None => {}
             }
             let mut go = |id: BlockId| {
@@ -127,12 +146,12 @@ impl<'m> After<'m> {
                 End::On(to) => to.iter().for_each(|id| go(*id)),
                 End::Call(None, _) => return (true, false),
                 End::Call(Some(callee), next) => {
-                    let (cuts, passes) = match seen.insert(*callee) {
+                    let (comes, passes) = match seen.insert(*callee) {
                         _ if depth > 15 => (true, true),
-                        true => self.walk(*callee, 0, running, seen, depth + 1),
+                        true => self.walk(wanted, *callee, 0, running, seen, depth + 1),
                         false => (false, true),
                     };
-                    if cuts {
+                    if comes {
                         return (true, false);
                     }
                     if passes && seen.insert((program, *next)) {
@@ -150,7 +169,11 @@ fn steps(kind: &StmtKind, state: &Modal) -> [Option<Step>; 2] {
     match kind {
         StmtKind::Nc(nc) => Running::ALL.map(|running| {
             let says = nc.ops().any(|op| says(op, running));
-            if says { Some(Step::Says) } else { may_cut(nc, state).then_some(Step::Cuts) }
+            match (says, nc.moves() || nc.names_axis() || nc.has(Op::Dwell)) {
+                (true, moves) => Some(if moves { Step::SaysBeside } else { Step::Says }),
+                (false, _) if may_cut(nc, state) => Some(Step::Cuts),
+                (false, moves) => moves.then_some(Step::Goes),
+            }
         }),
         StmtKind::ModalCall(_) => [Some(Step::Cuts); 2],
         _ => [None; 2],
