@@ -62,6 +62,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let (called, main) = (context.modal_facts(module), facts_uncompensated(module, context));
     let written = Written::of(module, context.source);
     let summaries = context.summaries(module);
+    let calls = if with.is_empty() { Vec::new() } else { context.called(module).pairs(module) };
     let mut all = Vec::new();
     for index in &with {
         let program = &mut module.programs[*index];
@@ -71,7 +72,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
         let found = each(program, states, (*index, &written, &summaries), context);
         all.push((*index, found));
     }
-    tell(all, module, context);
+    tell(all, &calls, module, context);
     with
 }
 

@@ -1,16 +1,20 @@
 //! What cycles need of the target's settings, over a whole library.
 //!
-//! Law: a setting is one value while a run lasts. Side condition: where no program calls another, a person may set it anew between two
-//! programs. Counter-example: a groove that goes back by 0.5 and one that goes back by 1, in a program and one that it calls.
+//! Law: a setting is one value while a run lasts. Side conditions: a person may set it anew between two programs that no run goes through
+//! both of; and how far the passes of a roughed contour go back changes no cut, so a person looks at the room that there is. Counter-example:
+//! a groove that goes back by 0.5 and one that goes back by 1, in a program and one that it calls.
 
 use super::cycle_values::setting_named;
 use crate::assume::Predicate;
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
 use crate::ir::Module;
 use crate::legalize::Context;
 use crate::legalize::features::Feature;
 use crate::text::Span;
-use std::collections::BTreeMap;
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// What is found: where, what, what to do, and what comes of it.
@@ -30,10 +34,14 @@ pub(super) enum So {
     Supposed(Predicate),
 }
 
-/// Tells what was found in the programs of a library, each with its index.
-pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Context<'_>) {
-    let calls =
-        [Feature::Call, Feature::Modal, Feature::Chain].into_iter().any(|way| context.features.has(way));
+/// Tells what was found in the programs of a library, each with its index; `calls` are its callers with what each calls.
+pub(super) fn tell(
+    found: Vec<(usize, Found)>,
+    calls: &[(usize, usize)],
+    module: &Module,
+    context: &mut Context<'_>,
+) {
+    let runs = OnceCell::new();
     let mut values: BTreeMap<Arc<str>, Vec<(f64, usize)>> = BTreeMap::new();
     for (index, found) in found {
         for (span, mut what, mut help, mut so) in found {
@@ -48,8 +56,21 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
                 }
                 if let Some((first, program)) = clash {
                     let is_own = program == index;
-                    (what, help) = two_values((name, *value), (first, (!is_own).then_some(program)), module);
-                    if is_own || calls {
+                    let is_one_run = || {
+                        runs.get_or_init(|| Runs::of(module, calls, context.features.has(Feature::Chain)))
+                            .goes_through([program, index])
+                    };
+                    let together = is_own || is_one_run();
+                    let goes_back = together && is_way_back(name, context.target);
+                    let other = (first, (!is_own).then_some(program));
+                    (what, help) = if goes_back {
+                        another_way_back((name, *value), first)
+                    } else {
+                        two_values((name, *value), other, module)
+                    };
+                    if goes_back {
+                        so = So::Open;
+                    } else if together {
                         so = So::Refused;
                     }
                 }
@@ -69,6 +90,61 @@ pub(super) fn tell(found: Vec<(usize, Found)>, module: &Module, context: &mut Co
             }
         }
     }
+}
+
+/// The programs that a run may go through, by the program that it begins with.
+struct Runs(Vec<BTreeSet<usize>>);
+
+impl Runs {
+    /// A run begins with any program that nothing in the library calls. Those of them that return are called by what is not in the
+    /// library, which may call several.
+    fn of(module: &Module, calls: &[(usize, usize)], chains: bool) -> Self {
+        let mut callees = vec![BTreeSet::new(); module.programs.len()];
+        for (caller, callee) in calls {
+            callees[*caller].insert(*callee);
+        }
+        let reach = |first: &mut dyn Iterator<Item = usize>| {
+            let (mut work, mut seen): (Vec<usize>, BTreeSet<usize>) = (first.collect(), BTreeSet::new());
+            while let Some(program) = work.pop() {
+                if seen.insert(program) {
+                    work.extend(&callees[program]);
+                }
+            }
+            seen
+        };
+        if chains {
+            return Self(vec![(0..module.programs.len()).collect()]);
+        }
+        let called: BTreeSet<usize> = callees.iter().flatten().copied().collect();
+        let is_called_outside = |at: &usize| !called.contains(at) && module.programs[*at].returns();
+        let all = 0..module.programs.len();
+        let mut runs: Vec<BTreeSet<usize>> = all.clone().map(|at| reach(&mut std::iter::once(at))).collect();
+        runs.push(reach(&mut all.filter(is_called_outside)));
+        Self(runs)
+    }
+
+    /// True if some run may go through both.
+    fn goes_through(&self, both: [usize; 2]) -> bool {
+        self.0.iter().any(|run| both.iter().all(|program| run.contains(program)))
+    }
+}
+
+/// True for how far the passes of a roughed contour go back.
+fn is_way_back(name: &str, target: &Control) -> bool {
+    target.setting_row(name).is_some_and(|row| {
+        row.gives == Some(Role::CutRetract)
+            && row.cycles.iter().all(|op| matches!(op, Op::RoughTurning | Op::RoughFacing))
+    })
+}
+
+/// What is said of another way back, which the target does not take.
+fn another_way_back((name, value): (&str, f64), first: f64) -> (String, String) {
+    let (kind, number) = setting_named(name);
+    let what = format!(
+        "the passes of this cycle go back by {first} on the target, as {kind} {number} is for a cycle before, and by {value} on the source: no \
+         program can change it"
+    );
+    (what, "look whether the tool has that much room, most of all in a bore; else give both cycles the same value".into())
 }
 
 /// What is said where moves take the place of a cycle, and what to do to keep the cycle.

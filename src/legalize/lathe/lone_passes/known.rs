@@ -43,6 +43,8 @@ pub struct Known {
     pub again: bool,
     /// True where a code for its own block came on some way after the words.
     pub crossed: bool,
+    /// True where a pass was made on some way, and no other code of motion came after it.
+    pub may_repeat: bool,
 }
 
 impl Lattice for Known {
@@ -55,6 +57,7 @@ impl Lattice for Known {
         }
         self.again |= other.again;
         self.crossed |= other.crossed;
+        self.may_repeat |= other.may_repeat;
         *self != before
     }
 }
@@ -82,15 +85,19 @@ impl Known {
         if nc.ops().any(|op| op.group() == Group::Motion) {
             *self = Self::default();
         }
+        let crosses = nc.ops().any(Op::is_for_its_block);
         match state.op(Group::Motion) {
-            None => return self.lose(),
+            None => {
+                self.may_repeat &= !(crosses && rules.clears);
+                return self.lose();
+            }
             Some(op) if !op.is_pass() => return,
             Some(_) => {}
         }
         if state.may_call() {
             return self.lose();
         }
-        if nc.ops().any(Op::is_for_its_block) {
+        if crosses {
             self.cross(rules);
             return;
         }
@@ -104,7 +111,7 @@ impl Known {
         }
         if runs(nc) {
             nc.items.iter().for_each(|item| self.word(item));
-            self.again = false;
+            (self.again, self.may_repeat) = (false, true);
         } else if switches_alone(nc) && rules.cancels && !self.is_untold() {
             self.again = true;
         }
@@ -115,7 +122,7 @@ impl Known {
         self.crossed |= !self.is_untold();
         self.again |= rules.clears_apart && !self.is_untold();
         if rules.clears {
-            self.words = Default::default();
+            (self.words, self.may_repeat) = Default::default();
         } else {
             self.lose_steps(rules.increments);
         }

@@ -107,6 +107,10 @@ impl Walk<'_, '_> {
         match pass.filter(|op| op.is_pass()) {
             Some(pass) if goes_on => self.go_on(stmt, pass, &before),
             Some(_) if switches_alone(nc) && !before.is_untold() => self.alone(stmt, &before),
+            None if pass.is_none() && switches_alone(nc) && before.may_repeat => {
+                self.on_some_ways(stmt);
+                false
+            }
             None if pass.is_none() && goes_on && before.again => {
                 self.refuse(stmt, "whether a pass is in force here is not known");
                 false
@@ -159,6 +163,14 @@ impl Walk<'_, '_> {
                 false
             }
         }
+    }
+
+    /// M, S or T alone, where only some ways come by a pass.
+    fn on_some_ways(&mut self, stmt: &Stmt) {
+        let (index, span) = (self.index, stmt.site.span);
+        self.context.rests_on_source(index, span, Question::PassAlone);
+        self.context.rests_on_target(index, span, Question::PassAlone);
+        self.context.must_agree(index, span, Question::PassAlone);
     }
 
     /// A block that goes on with the pass in force.
