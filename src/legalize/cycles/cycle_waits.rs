@@ -1,8 +1,9 @@
 //! Waits inside a drilling cycle, where their time is the cycle's too.
 //!
 //! Law: on a control where P of a wait is P of the cycle in force, the holes after the wait wait as long as it did; elsewhere they
-//! wait as long as the cycle was told. So such a program is refused, unless both controls are alike. Side condition: the cycle takes
-//! a dwell, or a later one may that is not told its own. Counter-example: `G4 P500` after `G80`.
+//! wait as long as the cycle was told. So such a program is refused, unless both controls are alike. Side conditions: the cycle takes
+//! a dwell, or a later one may that is not told its own; a program that does not return begins without a cycle. Counter-example: `G4 P500`
+//! after `G80`.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -10,6 +11,7 @@ use crate::dialect::{Control, Question};
 use crate::ir::{Module, Nc};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
+use crate::legalize::moves::mains::{facts_of_mains, returns};
 use std::collections::BTreeMap;
 
 /// True if the library waits and drills, and the time may be shared on one of the controls alone.
@@ -27,7 +29,7 @@ fn shares(control: &Control) -> bool {
 
 /// Reports waits inside cycles.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let facts = context.modal_facts(module);
+    let (called, mains) = (context.modal_facts(module), facts_of_mains(module, context));
     let control = if shares(context.source) { context.source } else { context.target };
     let takes =
         |op: Op| control.code_for(op, &BTreeMap::new()).is_some_and(|row| row.takes(Role::CycleDwell));
@@ -36,19 +38,21 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         |nc: &Nc| nc.ops().any(|op| op.is_cycle() && takes(op)) && nc.word(Role::CycleDwell).is_none();
     // A wait under a cycle without a dwell is kept for one of them.
     let later = stmts.filter_map(|stmt| stmt.kind.nc()).any(untold);
-    facts.each(module, &mut |index, stmt, before, _| {
-        if !stmt.kind.nc().is_some_and(waits) {
-            return;
-        }
-        let span = stmt.site.span;
-        match before.op(Group::Cycle) {
-            Some(op) if op.is_cycle() && (later || takes(op)) => {
-                context.add(index, Diagnostic::new(Code::NoEquivalent, span, SHARED));
+    for (facts, of_mains) in [(called, false), (mains, true)] {
+        facts.each(module, &mut |index, stmt, before, _| {
+            if returns(&module.programs[index]) == of_mains || !stmt.kind.nc().is_some_and(waits) {
+                return;
             }
-            Some(_) => {}
-            None => context.add_once(index, MAY_BE, Diagnostic::new(Code::Conditional, span, MAY_BE)),
-        }
-    });
+            let span = stmt.site.span;
+            match before.op(Group::Cycle) {
+                Some(op) if op.is_cycle() && (later || takes(op)) => {
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, SHARED));
+                }
+                Some(_) => {}
+                None => context.add_once(index, MAY_BE, Diagnostic::new(Code::Conditional, span, MAY_BE)),
+            }
+        });
+    }
 }
 
 /// True for a wait that does not stand beside the end of the cycle.

@@ -22,7 +22,7 @@ pub(super) fn mains(module: &Module, called: &CalledPrograms) -> Vec<usize> {
 }
 
 /// True for one that may return to a caller.
-pub(super) fn returns(program: &Program) -> bool {
+pub(in crate::legalize) fn returns(program: &Program) -> bool {
     leaves_by(program, |kind| matches!(kind, TermKind::Return { .. }))
 }
 
@@ -41,8 +41,15 @@ pub(super) fn uncalled(module: &Module, called: &CalledPrograms) -> Vec<usize> {
 /// of its profile under `[start]`. Where a program may have callers that are not in the library, nothing of that is known.
 pub(in crate::legalize) fn facts_from_reset(module: &Module, context: &Context<'_>) -> Arc<ModalFacts> {
     let called = context.called(module);
-    let is_start = context.entry == Modal::unknown();
-    if !is_start || uncalled(module, &called).into_iter().any(|root| returns(&module.programs[root])) {
+    if uncalled(module, &called).into_iter().any(|root| returns(&module.programs[root])) {
+        return context.modal_facts(module);
+    }
+    facts_of_mains(module, context)
+}
+
+/// The same, of programs that do not return alone: no caller gives them what is in force.
+pub(in crate::legalize) fn facts_of_mains(module: &Module, context: &Context<'_>) -> Arc<ModalFacts> {
+    if context.entry != Modal::unknown() {
         return context.modal_facts(module);
     }
     let mut entry = context.entry.clone();
