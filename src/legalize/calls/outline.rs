@@ -7,7 +7,7 @@
 //! Law: what a call of a block runs is what is reachable from it; a program
 //! made of copies of those blocks does the same and returns to the same place.
 //! Side condition: blocks that the main part reaches as well are copied, so an
-//! operator who edits one must edit both; the copies carry the same comments.
+//! operator who edits one must edit both; the copies carry the same comments. Remarks above a subroutine go with it.
 
 use crate::dialect::Question;
 use crate::ir::{
@@ -82,17 +82,22 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
     }
     let names: BTreeMap<BlockId, ProgramName> =
         entries.iter().map(|&entry| (entry, sub_name(&program, entry))).collect();
-    let mut outlined = BTreeSet::new();
+    let main = reachable(&program, BlockId(0));
+    let (mut outlined, mut headed) = (BTreeSet::new(), BTreeSet::new());
     let mut subs = Vec::new();
     for (&entry, name) in &names {
         let body = reachable(&program, entry);
         outlined.extend(body.iter().copied());
         let site = SourceInfo { comments: called(&program, entry), ..SourceInfo::default() };
-        subs.push(extract(&program, entry, &body, Some(name.clone()), site));
+        let remarks = remarks_above(&program, entry, &main);
+        headed.extend(remarks.iter().copied());
+        let mut sub = extract(&program, entry, &body, Some(name.clone()), site);
+        head(&mut sub, remarks.iter().filter_map(|id| program.block(*id)));
+        subs.push(sub);
     }
-    let main = reachable(&program, BlockId(0));
     // What nothing reaches stays, and with it what that could jump to.
-    let strays = program.ids().filter(|id| !main.contains(id) && !outlined.contains(id));
+    let strays =
+        program.ids().filter(|id| !main.contains(id) && !outlined.contains(id) && !headed.contains(id));
     let strays = strays.filter(|id| program.block(*id).is_some_and(says_something));
     let strays: BTreeSet<BlockId> = strays.flat_map(|id| reachable(&program, id)).collect();
     let keep = &main | &strays;
@@ -103,6 +108,38 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
         program.blocks.iter_mut().for_each(|block| rename_calls(block, &names));
     }
     out.extend(all);
+}
+
+/// The blocks of remarks alone that stand above a subroutine, which no run comes to: people wrote them about it.
+fn remarks_above(program: &Program, entry: BlockId, reached: &BTreeSet<BlockId>) -> Vec<BlockId> {
+    let mut above = Vec::new();
+    let mut next = entry;
+    while let Some(id) = next.0.checked_sub(1).map(BlockId) {
+        let goes_on = |block: &Block| block.term.kind == TermKind::Jump(next) && block.labels.is_empty();
+        let remarks = |block: &Block| block.stmts.iter().all(|stmt| stmt.kind == StmtKind::Comment);
+        let plain = program.block(id).is_some_and(|block| goes_on(block) && remarks(block));
+        if !plain || reached.contains(&id) {
+            break;
+        }
+        above.push(id);
+        next = id;
+    }
+    above.reverse();
+    above
+}
+
+/// Puts remarks before the first block.
+fn head<'b>(program: &mut Program, above: impl Iterator<Item = &'b Block>) {
+    let stmts = above.flat_map(|block| &block.stmts).filter(|stmt| !stmt.site.comments.is_empty());
+    let stmts: Stmts = stmts.cloned().collect();
+    if stmts.is_empty() {
+        return;
+    }
+    for block in &mut program.blocks {
+        for_each_jump(&mut block.term.kind, &mut |to| to.0 += 1);
+    }
+    let term = Terminator { kind: TermKind::Jump(BlockId(1)), site: SourceInfo::default() };
+    program.blocks.insert(0, Block { labels: ThinVec::new(), stmts, term });
 }
 
 /// False for an empty line that a run would pass by.

@@ -76,7 +76,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 untapped(block, index, context);
             }
             let mut coded = false;
-            let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
+            // What no run reaches may be left of a subroutine that was given a program of its own.
+            let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Said);
             for mut stmt in std::mem::take(&mut block.stmts) {
                 state.step(&stmt);
                 let said = if turns_always { speed } else { Speed::Unknown };
