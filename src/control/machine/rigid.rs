@@ -21,16 +21,16 @@ pub(super) enum Rigid {
 
 /// Takes what a block says of rigid taps, before it moves.
 pub(super) fn enter(machine: &mut Machine, command: &Command) -> Result<(), Stop> {
-    if machine.rules.lathe || machine.rigid == Rigid::No && !command.has(Op::RigidTaps) {
+    let taps = command.ops.iter().copied().any(Op::is_tap);
+    if machine.rules.lathe {
         return Ok(());
     }
-    let taps = command.ops.iter().copied().any(Op::is_tap);
+    if machine.rigid == Rigid::No && !command.has(Op::RigidTaps) {
+        return if taps && machine.rules.taps_rigid { with_speed(machine, command) } else { Ok(()) };
+    }
     let asked = machine.rigid == Rigid::Asked;
     if taps && (asked || command.has(Op::RigidTaps)) {
-        let speed = command.word(Role::Speed).unwrap_or(machine.speed);
-        if speed <= 0.0 {
-            return Err(Stop::unnamed("a rigid tap without a speed"));
-        }
+        with_speed(machine, command)?;
         machine.rigid = Rigid::Taps;
         return Ok(());
     }
@@ -49,4 +49,10 @@ pub(super) fn enter(machine: &mut Machine, command: &Command) -> Result<(), Stop
         machine.rigid = Rigid::No;
     }
     Ok(())
+}
+
+/// A tap that follows a spindle which has no speed would go nowhere.
+fn with_speed(machine: &Machine, command: &Command) -> Result<(), Stop> {
+    let speed = command.word(Role::Speed).unwrap_or(machine.speed);
+    if speed <= 0.0 { Err(Stop::unnamed("a rigid tap without a speed")) } else { Ok(()) }
 }

@@ -80,6 +80,8 @@ pub struct Rules {
     pub peck_clearance: Option<f64>,
     /// False where the profile says that the wait of a tap is none.
     pub taps_wait: bool,
+    /// True if every tap is rigid.
+    pub taps_rigid: bool,
     pub zero_repeats_stores: Fact<bool>,
     pub zero_repeats_moves: Fact<bool>,
     pub repeats_move: Fact<bool>,
@@ -239,16 +241,8 @@ impl Rules {
             zero_repeats_stores: yes(control, Question::CycleL0Stores, true),
             repeats_move: yes(control, Question::RepeatMoves, false),
             zero_repeats_moves: yes(control, Question::CycleL0Moves, false),
-            speed_kept: fact(
-                control,
-                Question::SpeedKept,
-                |value| match value {
-                    "mode" => Some(true),
-                    "turns" => Some(false),
-                    _ => None,
-                },
-                true,
-            ),
+            speed_kept: fact(control, Question::SpeedKept, word("mode", "turns"), true),
+            taps_rigid: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always"),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
             finish_allowance: fact(
