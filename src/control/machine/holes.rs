@@ -6,7 +6,8 @@ use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
 
-/// Drills round the place where the tool stands, or from there on along a line; the tool stays at the last hole.
+/// Drills round the place where the tool stands, or the centre that the block names, or from there on along a line; the tool stays at
+/// the last hole.
 pub(super) fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     if machine.cycle.is_none() {
         return Err(Stop::unnamed("holes in a pattern, and no drilling cycle is in force"));
@@ -20,7 +21,9 @@ pub(super) fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut 
         ));
     };
     let (first, second, along) = machine.plane.axes();
-    if (first, second) != (0, 1) || command.has_axes() {
+    let axes = [Role::X, Role::Y].map(|role| command.word(role));
+    let centre = !line && !machine.incremental && command.word(Role::Z).is_none();
+    if (first, second) != (0, 1) || command.has_axes() && !(centre && axes.iter().any(Option::is_some)) {
         return Err(Stop::unnamed(
             "holes in a pattern that does not begin at the tool in the plane of X and Y",
         ));
@@ -33,7 +36,10 @@ pub(super) fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut 
         _ => return Err(Stop::unnamed("holes on an arc without the angle between them")),
     };
     let start = command.word(Role::HolesStart).unwrap_or(0.0);
-    let (length, begin) = (length * machine.unit(), machine.frame.program(&machine.position));
+    let (length, mut begin) = (length * machine.unit(), machine.frame.program(&machine.position));
+    for (axis, word) in axes.into_iter().enumerate() {
+        begin[axis] = word.map_or(begin[axis], |word| word * machine.unit());
+    }
     let least = machine.least_length() * machine.unit();
     let counted = |place: f64| (place / least).round() * least;
     for at in 0..count {

@@ -2,7 +2,7 @@
 //!
 //! Law: such a block runs the drilling cycle in force at places round the place where the tool stands, or from there on along a line; so
 //! do blocks with these places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
-//! place is known from absolute words before, the same on every way, the plane is that of X and Y (or the library names no plane),
+//! place is known from absolute words before, the same on every way, or the block names the centre of a circle, the plane is that of X and Y (or the library names no plane),
 //! coordinates are absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
 
 use crate::canon::{Group, Op, Role};
@@ -59,6 +59,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 changed = true;
                 match holes(&stmt, &state, place, rules.sides) {
                     Ok(holes) => {
+                        if stmt.kind.nc().is_some_and(Nc::names_axis) {
+                            let told = Diagnostic::new(Code::Conditional, stmt.site.span, CENTRE);
+                            context.add_once(index, CENTRE, told);
+                        }
                         place = place.after(&holes);
                         out.extend(written(&stmt, &holes));
                     }
@@ -184,6 +188,7 @@ fn holes(
         NcItem::Word(role, _) => {
             use Role::*;
             matches!(role, HolesRadius | HolesApart | HolesStart | HolesStep | HolesCount)
+                || matches!(role, X | Y) && has_centre(nc)
         }
         NcItem::Code(..) => false,
     };
@@ -223,7 +228,9 @@ fn holes(
     if state.may_call() {
         return Err("a macro is called after each move");
     }
-    let [Some(x), Some(y)] = place.0 else {
+    // Words of the block name the centre.
+    let (x, y) = (word(Role::X)?.or(place.0[0]), word(Role::Y)?.or(place.0[1]));
+    let (Some(x), Some(y)) = (x, y) else {
         return Err("it is not known here where the tool stands: write X and Y as numbers before it");
     };
     let parts = parts_of_unit(state, source);
@@ -237,6 +244,13 @@ fn holes(
     };
     Ok((0..count as u32).map(hole).collect())
 }
+
+/// True for holes round a centre, which the block may name.
+fn has_centre(nc: &Nc) -> bool {
+    nc.ops().any(|op| matches!(op, Op::HolesCircle | Op::HolesArc))
+}
+
+const CENTRE: &str = "no source says whether the tool goes to the centre of these holes first: on the target it goes straight to the first hole";
 
 /// A block for each hole; the first is where the block with them stood.
 fn written(stmt: &Stmt, holes: &[[f64; 2]]) -> Vec<Stmt> {
