@@ -16,6 +16,27 @@ pub fn behind(
     module: &Module,
     sets: impl Fn(&Stmt) -> bool,
     ends: impl Fn(&Stmt) -> bool,
+    found: impl FnMut(usize, &Stmt),
+) {
+    walk(module, false, sets, ends, found);
+}
+
+/// The same, where a program that returns and that nothing in the library calls may be entered with it in force: some program of the
+/// library begins it, so its callers may too.
+pub fn behind_or_entered(
+    module: &Module,
+    sets: impl Fn(&Stmt) -> bool,
+    ends: impl Fn(&Stmt) -> bool,
+    found: impl FnMut(usize, &Stmt),
+) {
+    walk(module, true, sets, ends, found);
+}
+
+fn walk(
+    module: &Module,
+    entered: bool,
+    sets: impl Fn(&Stmt) -> bool,
+    ends: impl Fn(&Stmt) -> bool,
     mut found: impl FnMut(usize, &Stmt),
 ) {
     let library = Library::of(module, &sets);
@@ -29,7 +50,7 @@ pub fn behind(
         };
         sets(stmt) || modal || (on && !ends(stmt))
     };
-    let entries = library.entries(module, &step);
+    let entries = library.entries(module, entered, &step);
     for (index, program) in module.programs.iter().enumerate() {
         let starts = library.starts(index, program, entries[index], &step);
         for (block, mut on) in program.blocks.iter().zip(starts) {
@@ -104,6 +125,16 @@ impl<'m> Library<'m> {
         }
     }
 
+    /// The programs that some call or end of another names.
+    fn called(&self, module: &Module) -> BTreeSet<usize> {
+        let blocks = || module.programs.iter().flat_map(|program| &program.blocks);
+        let named = blocks().flat_map(calls_of).flat_map(|call| match self.callees(call) {
+            Callees::These(these) => these,
+            Callees::Own | Callees::Any | Callees::Outside => &[],
+        });
+        named.chain(blocks().flat_map(|block| self.chained(block))).copied().collect()
+    }
+
     /// True where something that a call runs may begin it. Of a subroutine of the same program its blocks tell.
     fn begins(&self, call: &Call) -> bool {
         match self.callees(call) {
@@ -114,12 +145,13 @@ impl<'m> Library<'m> {
     }
 
     /// By program, whether it may be in force where it is called.
-    fn entries(&self, module: &Module, step: &dyn Fn(&Stmt, bool) -> bool) -> Vec<bool> {
+    fn entries(&self, module: &Module, entered: bool, step: &dyn Fn(&Stmt, bool) -> bool) -> Vec<bool> {
         let count = module.programs.len();
         let mut entries = Flow::new(count);
+        let called = if entered { self.called(module) } else { BTreeSet::new() };
         // Each program comes twice at the most: as it is, and where it is entered so.
-        for index in 0..count {
-            entries.flow(index, &false);
+        for (index, program) in module.programs.iter().enumerate() {
+            entries.flow(index, &(entered && program.returns() && !called.contains(&index)));
         }
         while let Some(index) = entries.pop() {
             let Some(program) = module.programs.get(index) else { continue };

@@ -12,7 +12,7 @@ mod path;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
-use crate::ir::analysis::behind::behind;
+use crate::ir::analysis::behind::behind_or_entered;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::moves::increments::parts_of_unit;
@@ -166,7 +166,7 @@ fn after_one_of(module: &Module, on: Which, off: Which) -> BTreeSet<(usize, Span
         stmt.site.skip.is_none() && stmt.kind.nc().is_some_and(|nc| nc.ops().any(off))
     };
     let mut found = BTreeSet::new();
-    behind(module, begins, ends, |index, stmt| {
+    behind_or_entered(module, begins, ends, |index, stmt| {
         if is_pocket(stmt) {
             found.insert((index, stmt.site.span));
         }

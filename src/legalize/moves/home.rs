@@ -8,7 +8,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::analysis::Vacancy;
+use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, replace_statements};
@@ -64,13 +64,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 /// The returns by this code with a word of an axis that may not be there, by program.
 pub(super) fn unsure(module: &Module, context: &mut Context<'_>, code: Op) -> BTreeSet<(usize, Span)> {
-    let summaries = context.summaries(module);
+    absent(module, &context.summaries(module), code)
+}
+
+/// The same by what calls of the library assign.
+pub(super) fn absent(module: &Module, summaries: &Summaries, code: Op) -> BTreeSet<(usize, Span)> {
     let mut found = BTreeSet::new();
     for (index, program) in module.programs.iter().enumerate() {
         if !Features::of_program(program).op(code) {
             continue;
         }
-        let vacancy = Vacancy::of(program, &summaries, &BTreeSet::new());
+        let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
         let absent = vacancy.absent(&|nc, role| nc.has(code) && role.is_axis());
         let stmt = |(id, at): (BlockId, usize)| program.block(id)?.stmts.get(at);
         found.extend(absent.into_iter().filter_map(stmt).map(|stmt| (index, stmt.site.span)));

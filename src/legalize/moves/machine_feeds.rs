@@ -6,15 +6,19 @@
 //! Side conditions, each refused: G1 and G90 are known to be in force; the block names X, Y or Z alone, and none of them can be vacant; no
 //! compensation, cycle, mirror, scaling or rotation and no feed in inverse time can be in force; no length is taken up or ended in it, and
 //! after the last length something went to a place along Z: an increment may make up for one that has not counted yet.
-//! Where it is not known which code is in force a reviewer has to look. Counter-example: `G53 G1 Z-5. F20.`, a crash where it is rapid.
+//! Where it is not known which code is in force, or a word was read by a computed
+//! number of a system variable, a reviewer has to look. Counter-example: `G53 G1 Z-5. F20.`, a crash where it is rapid.
 
+use super::home::{absent, unsure};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Units};
+use crate::ir::analysis::behind::behind_or_entered;
 use crate::ir::analysis::modal_facts::replace_statements;
-use crate::ir::{BinOp, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::ir::{Bank, BinOp, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, constant_part};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
+use std::collections::BTreeSet;
 
 const FEEDS: &str = "a move in machine coordinates under a code that feeds: the target makes every such move by rapid traverse";
 
@@ -30,6 +34,27 @@ const UNIT: &str = "a feed move in machine coordinates becomes an increment from
 const UNIT_HELP: &str = "if the machine has the unit of the program, say so in the target's machine profile, as units; else read the machine's position in MDI under \
      this unit, and compare it with the machine position on the screen";
 
+const VACANT: &str = "a word of this move in machine coordinates was read by a computed number of a system variable, and it must have a value in each run: \
+     where it is vacant, the source leaves the axis where it is, and the target goes to 0 of the machine";
+
+/// System variables have numbers from here on.
+const SYSTEM: f64 = 1000.0;
+
+/// The library with what is read by a number that counts on from that of a system variable taken to have a value.
+fn with_system_reads(module: &Module) -> Module {
+    let mut read = module.clone();
+    for stmt in
+        read.programs.iter_mut().flat_map(|program| &mut program.blocks).flat_map(|block| &mut block.stmts)
+    {
+        stmt.kind.exprs_mut(&mut |e| {
+            if matches!(e, Expr::Indirect(Bank::Numbered, number) if constant_part(number) >= Some(SYSTEM)) {
+                *e = Expr::Number(0.0);
+            }
+        });
+    }
+    read
+}
+
 /// True for two mills, where the target alone is known to go there by rapid whatever is in force.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let rapid = Question::MachineMoveRapid;
@@ -42,7 +67,12 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Makes them increments, or refuses them.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    let library = Library::of(module);
+    let (library, may_lack) = (Library::of(module), unsure(module, context, Op::MachineOnce));
+    let lacks = if may_lack.is_empty() {
+        BTreeSet::new()
+    } else {
+        absent(&with_system_reads(module), &context.summaries(module), Op::MachineOnce)
+    };
     replace_statements(module, &facts, |index, state, stmt, out| {
         state.step(&stmt);
         let found = stmt.kind.nc().filter(|nc| nc.has(Op::MachineOnce) && nc.names_axis());
@@ -50,9 +80,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             return out.push(stmt);
         };
         let span = stmt.site.span;
-        let settled = nc.word(Role::Z).is_none() || !library.lengths || counts(out);
-        if let Some(items) = increments(nc, state, &library).filter(|_| settled) {
+        let settled = (nc.word(Role::Z).is_none() || !library.lengths || counts(out))
+            && !lacks.contains(&(index, span));
+        let place = (index, span.start);
+        if let Some(items) = increments(nc, state, &library, place).filter(|_| settled) {
             context.rests_on_source(index, span, Question::MachineMoveRapid);
+            if may_lack.contains(&(index, span)) {
+                context.add_once(index, VACANT, Diagnostic::new(Code::Conditional, span, VACANT));
+            }
             if !in_its_unit(state, context.target) {
                 let told = Diagnostic::new(Code::Conditional, span, UNIT).with_help(UNIT_HELP);
                 context.add_once(index, UNIT, told.asked_once());
@@ -78,12 +113,12 @@ fn in_its_unit(state: &Modal, target: &Control) -> bool {
     target.units() == Some(in_force)
 }
 
-/// What of a library can be in force somewhere in it.
+/// What of a library can be in force, by the programs and places of the moves that it may come before.
 struct Library {
     /// Coordinates are turned, scaled, mirrored or polar, all shifts are cancelled, or a feed is in inverse time.
-    shaped: bool,
-    compensates: bool,
-    drills: bool,
+    shaped: BTreeSet<(usize, u32)>,
+    compensates: BTreeSet<(usize, u32)>,
+    drills: BTreeSet<(usize, u32)>,
     lengths: bool,
 }
 
@@ -95,13 +130,38 @@ impl Library {
             matches!(op, RotateOn | ScaleOn | MirrorOn | Pole | ShiftCancel | FeedInverse)
         };
         Self {
-            shaped: features.any_op(shaped),
-            compensates: features.any_op(|op| matches!(op, Op::RadiusLeft | Op::RadiusRight)),
-            drills: features.any_op(Op::is_cycle),
+            shaped: moves_after(module, shaped, |_| false),
+            compensates: moves_after(
+                module,
+                |op| matches!(op, Op::RadiusLeft | Op::RadiusRight),
+                |op| op == Op::RadiusOff,
+            ),
+            drills: moves_after(module, Op::is_cycle, |op| op == Op::CycleOff),
             lengths: features.role(Role::LengthOffset)
                 || features.any_op(|op| matches!(op, Op::LengthPlus | Op::LengthMinus)),
         }
     }
+}
+
+/// The moves in machine coordinates that may come after an operation and before its end.
+fn moves_after(
+    module: &Module,
+    sets: impl Fn(Op) -> bool,
+    ends: impl Fn(Op) -> bool,
+) -> BTreeSet<(usize, u32)> {
+    let any = |stmt: &Stmt, of: &dyn Fn(Op) -> bool| stmt.kind.nc().is_some_and(|nc| nc.ops().any(of));
+    let mut found = BTreeSet::new();
+    behind_or_entered(
+        module,
+        |stmt| any(stmt, &sets),
+        |stmt| any(stmt, &ends) && stmt.site.skip.is_none(),
+        |index, stmt| {
+            if stmt.kind.has_op(Op::MachineOnce) {
+                found.insert((index, stmt.site.span.start));
+            }
+        },
+    );
+    found
 }
 
 /// True where the length in force counts: after its code these statements go to a place along Z.
@@ -120,11 +180,13 @@ fn counts(before: &Stmts) -> bool {
 }
 
 /// The words of an increment that goes to the same place, if all side conditions hold.
-fn increments(nc: &Nc, state: &Modal, library: &Library) -> Option<Vec<NcItem>> {
+fn increments(nc: &Nc, state: &Modal, library: &Library, place: (usize, u32)) -> Option<Vec<NcItem>> {
     let is = |group, op| state.op(group) == Some(op);
-    let plain = is(Group::Motion, Op::Linear) && is(Group::Distance, Op::Absolute) && !library.shaped;
-    let free = !library.compensates || is(Group::RadiusComp, Op::RadiusOff);
-    let no_cycle = !library.drills || is(Group::Cycle, Op::CycleOff);
+    let plain = is(Group::Motion, Op::Linear)
+        && is(Group::Distance, Op::Absolute)
+        && !library.shaped.contains(&place);
+    let free = !library.compensates.contains(&place) || is(Group::RadiusComp, Op::RadiusOff);
+    let no_cycle = !library.drills.contains(&place) || is(Group::Cycle, Op::CycleOff);
     if !(plain && free && no_cycle) {
         return None;
     }
@@ -136,7 +198,7 @@ fn increments(nc: &Nc, state: &Modal, library: &Library) -> Option<Vec<NcItem>> 
             NcItem::Op(op) if matches!(op.group(), Group::Coolant | Group::Spindle) => {
                 items.push(item.clone())
             }
-            NcItem::Word(role @ (Role::X | Role::Y | Role::Z), to) if !to.may_be_vacant() => {
+            NcItem::Word(role @ (Role::X | Role::Y | Role::Z), to) => {
                 items.push(NcItem::Word(*role, way(*role, to)?));
             }
             _ => return None,
