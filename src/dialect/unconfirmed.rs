@@ -50,8 +50,9 @@ impl Control {
     /// The construct at `span` rests on a fact of this control, named as a machine profile confirms it:
     /// `behaviour:load.sets.condition`.
     pub fn unconfirmed(&self, side: Side, fact: &str, note: Option<&str>, span: Span) -> Diagnostic {
-        // One answer settles all that rests on it.
-        let (fact, note) = match self.rests(fact) {
+        // One answer settles all that rests on it, unless the row itself is less sure.
+        let rests = self.rests(fact).filter(|on| self.mark(on) == self.mark(fact));
+        let (fact, note) = match rests {
             Some(on) => (on, Question::of_fact(on).and_then(|on| self.behaviour(on)?.origin.note.as_deref())),
             None => (fact, note),
         };

@@ -123,3 +123,16 @@ fn what_a_setting_decides_is_asked_until_the_profile_says_it() {
     assert_eq!(told("[parameters]\n\"5006.6\" = 0"), ("true".into(), Mark::Confirmed));
     assert_eq!(told("[behaviours]\nlength.moves = false"), ("false".into(), Mark::Confirmed));
 }
+
+/// A code that all agree on rests on an answer that nobody confirms: once the shop has, what is left is common knowledge.
+#[test]
+fn what_a_row_rests_on_is_asked_until_it_is_confirmed() {
+    let told = |confirm: &str| {
+        let profile = format!("dialect = \"haas\"\nmachine = \"lathe\"\nconfirm = [{confirm}]\n");
+        let control = Control::from_profile(&profile).unwrap();
+        let told = control.unconfirmed(Side::Target, "code:G241", None, Span::default());
+        (told.code, told.message.contains("behaviour:hole.side.plane"))
+    };
+    assert_eq!(told(""), (Code::UnconfirmedFact, true));
+    assert_eq!(told("\"behaviour:hole.side.plane\""), (Code::CommonFact, false));
+}
