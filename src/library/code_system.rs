@@ -12,7 +12,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CODE_SYSTEM, CodeMeaning, Control, Plain, Start};
 use crate::ir::Module;
-use crate::syntax::{ExprKind, ItemKind, for_each_item, parse_file};
+use crate::syntax::{Block, ExprKind, ItemKind, for_each_item, parse_file};
 use crate::text::Span;
 
 /// A code that shows another system: where it is, and what.
@@ -26,7 +26,8 @@ struct Sign {
 pub(super) fn report(module: &Module, inputs: &[Input], control: &Control, found: &mut [Vec<Diagnostic>]) {
     let Some((system, row)) = control.open_code_system() else { return };
     let systems = Systems::of(control, system, &row.values);
-    let signs = inputs.iter().enumerate().filter_map(|(file, input)| systems.sign(file, input));
+    let is_shown = inputs.iter().any(|input| systems.shows_own(input));
+    let signs = inputs.iter().enumerate().filter_map(|(file, input)| systems.sign(file, input, is_shown));
     let signs: Vec<Sign> = signs.collect();
     let Some(first) = signs.first() else { return };
     let values =
@@ -88,6 +89,22 @@ struct Words {
 }
 
 impl Words {
+    /// Those of a block; `seen` is told of every item.
+    fn of(block: &Block, mut seen: impl FnMut(&ItemKind)) -> Self {
+        let mut words = Self::default();
+        for_each_item(&block.items, &mut |item| {
+            seen(&item.kind);
+            let ItemKind::Word(word) = &item.kind else { return };
+            let value = word.value.as_ref().and_then(|value| match &value.kind {
+                ExprKind::Number(number) => Some(number.value),
+                _ => None,
+            });
+            words.all.push((word.letter, value));
+            words.codes.extend(value.filter(|_| word.letter == 'G').map(|value| (value, item.span)));
+        });
+        words
+    }
+
     /// True where the block has no other letters.
     fn is_alone(&self, letters: &str) -> bool {
         self.all.iter().all(|(letter, _)| letters.contains(*letter))
@@ -114,25 +131,33 @@ impl<'c> Systems<'c> {
         Self { own, name, others: others.collect() }
     }
 
-    /// The first code of a file that shows another system.
-    fn sign(&self, file: usize, input: &Input) -> Option<Sign> {
+    /// True where a block of a file limits the speed by a code that does it in the assumed system alone: `G50 S3000`.
+    fn shows_own(&self, input: &Input) -> bool {
+        let limits = |control: &Control, code: f64, words: &Words| {
+            control.code('G', code, &words.all).is_some_and(|row| row.op == Op::LimitSpeed)
+        };
+        parse_file(&input.bytes, self.own.entry().parse_items).blocks.iter().any(|block| {
+            let words = Words::of(block, |_| {});
+            let own = |(code, _): &(f64, Span)| {
+                limits(self.own, *code, &words)
+                    && !self.others.iter().any(|(_, other)| limits(other, *code, &words))
+            };
+            words.has("S") && words.is_alone("GNSMT") && words.codes.iter().any(own)
+        })
+    }
+
+    /// The first code of a file that shows another system; `is_shown` where another block shows that it is the assumed one.
+    fn sign(&self, file: usize, input: &Input, is_shown: bool) -> Option<Sign> {
         let (mut fed, mut faced) = (false, false);
         for block in parse_file(&input.bytes, self.own.entry().parse_items).blocks {
-            let mut words = Words::default();
-            for_each_item(&block.items, &mut |item| {
-                fed &= !matches!(item.kind, ItemKind::Program(_));
-                faced &= !matches!(item.kind, ItemKind::Program(_));
-                let ItemKind::Word(word) = &item.kind else { return };
-                let value = word.value.as_ref().and_then(|value| match &value.kind {
-                    ExprKind::Number(number) => Some(number.value),
-                    _ => None,
-                });
-                words.all.push((word.letter, value));
-                words.codes.extend(value.filter(|_| word.letter == 'G').map(|value| (value, item.span)));
+            let words = Words::of(&block, |item| {
+                fed &= !matches!(item, ItemKind::Program(_));
+                faced &= !matches!(item, ItemKind::Program(_));
             });
             fed |= words.has("FE");
             for (code, span) in &words.codes {
-                let other = self.other(*code, &words, fed).or_else(|| self.unlike(*code, &words, faced));
+                let other =
+                    self.other(*code, &words, fed, is_shown).or_else(|| self.unlike(*code, &words, faced));
                 if let Some(what) = other {
                     return Some(Sign { file, span: *span, what });
                 }
@@ -145,7 +170,7 @@ impl<'c> Systems<'c> {
 
     /// Why a code is of another system; none if it may be of the assumed one. `fed` is true where a feed or a lead stands in
     /// this block or before.
-    fn other(&self, code: f64, words: &Words, fed: bool) -> Option<String> {
+    fn other(&self, code: f64, words: &Words, fed: bool, is_shown: bool) -> Option<String> {
         if self.own.alias('G', code).is_some() || self.own.site_code('G', code).is_some() {
             return None;
         }
@@ -163,6 +188,8 @@ impl<'c> Systems<'c> {
             Some(op) if is_pass(op) && self.moves_besides(code, words) => {
                 "a move in it, and the block has another one"
             }
+            // In a line of safe codes it does nothing, and shops write it as they know it from mills.
+            Some(Op::TurningPass) if is_shown && !words.has("XZUWF") => return None,
             Some(op) if is_pass(op) && !words.has("XZUW") => {
                 "a pass along X and Z in it, and the block has neither"
             }
@@ -311,6 +338,19 @@ mod tests {
             "G71 U2. R1.\nG71 P10 Q20 U.4 W.1 F.2\nN10 G0 X40.\nN20 G1 Z-20.\nG70 P10 Q20",
         ] {
             assert!(!shows(block), "{block}");
+        }
+    }
+
+    /// G50 limits the speed in system A alone; in B and C that is G92. Shops write G90 into a line of safe codes as on mills.
+    #[test]
+    fn a_limit_of_the_speed_shows_the_usual_system() {
+        let safe = "O1\nG18 G20 G40 G80 G90 G99\nT0101\nG0 X50. Z2.\nM30\n";
+        let limits = "O2\nT0202\nG50 S2000\nG0 X50. Z2.\nM30\n";
+        assert_eq!(said("", &[safe, limits]), [None, None]);
+        assert!(said("", &[safe]).iter().all(Option::is_some));
+        for other in ["G95 G1 Z-20. F.2", "G92 S2000", "G90 G0 X50. Z2.", "G94 G1 Z-20. F100."] {
+            let other = format!("O3\nT0101\nG0 X50. Z2.\n{other}\nM30\n");
+            assert!(said("", &[safe, limits, &other]).iter().all(Option::is_some), "{other}");
         }
     }
 
