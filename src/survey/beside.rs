@@ -1,7 +1,7 @@
 //! What programmers wrote beside a code: the comment of its block, or of the block before, and the words of its block.
 
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{Control, Machine};
+use crate::dialect::{CodeHead, Control, Machine};
 use crate::library::Input;
 use crate::syntax::{Block, ExprKind, ItemKind, Word, parse_file};
 use crate::text::Span;
@@ -95,10 +95,17 @@ pub(super) fn switch(input: &Input, control: &Control, place: Span, op: Op) -> O
             _ => None,
         })
     };
-    let row = control.dialect().codes.iter().find(|row| row.op == op)?;
-    let letter = row.words.iter().find(|(_, role)| **role == Role::Output)?.0;
-    let (_, number) = words().find(|(found, _)| letter.starts_with(*found))?;
-    Some(format!("{} {}", row.code, number.split_whitespace().collect::<String>()))
+    let value = |text: &str| text.get(1..).and_then(|number| number.trim().parse::<f64>().ok());
+    let stands = |head: CodeHead| {
+        words().any(|(letter, text)| letter == head.letter && value(&text) == Some(head.number()))
+    };
+    let mut rows = control.dialect().codes.iter().filter(|row| row.op == op);
+    let row = rows.find(|row| row.head().is_some_and(stands))?;
+    let letter = row.words.iter().find(|(_, role)| **role == Role::Output).map(|(letter, _)| letter);
+    let number = letter.and_then(|letter| words().find(|(found, _)| letter.starts_with(*found)));
+    // A code of the profile switches one output, and has no word for it.
+    let number = number.map_or_else(String::new, |(_, number)| format!(" {}", number.trim()));
+    Some(format!("{}{number}", row.code))
 }
 
 fn is_comment(block: &Block) -> bool {
@@ -145,5 +152,22 @@ mod tests {
         let found = beside(&input, &control, &[Span { start: 4, end: 8 }, Span { start: 32, end: 35 }]);
         let letters: Vec<String> = found.into_iter().map(|one| one.letters.into_iter().collect()).collect();
         assert_eq!(letters, ["PXQF", ""]);
+    }
+
+    /// Two codes of a profile that switch an output each, and one of the table that has a word for it.
+    #[test]
+    fn an_output_is_asked_by_the_code_of_its_block() {
+        let site = |code: &str, number: u32| {
+            format!(
+                "[[site]]\ncode = \"{code}\"\nop = \"output.on\"\nfixed = {{ \"output.bit\" = {number} }}\ntext = \"x\"\n"
+            )
+        };
+        let profile =
+            format!("dialect = \"haas\"\nmachine = \"mill\"\n{}{}", site("M162", 5), site("M164", 6));
+        let control = Control::from_profile(&profile).unwrap();
+        let bytes = b"M164\nM59 P1134 (ON)\nM5\n".to_vec();
+        let input = Input { path: "a.nc".into(), name: "a.nc".into(), bytes };
+        let asked = |start: u32| switch(&input, &control, Span { start, end: start + 1 }, Op::OutputOn);
+        assert_eq!([0, 5, 20].map(asked), [Some("M164".to_owned()), Some("M59 P1134".to_owned()), None]);
     }
 }

@@ -115,10 +115,12 @@ fn stand_in(op: Op, source: &Control) -> Option<(String, String)> {
 /// What becomes of an output, which another machine has elsewhere.
 fn switches(op: Op, source: &Control) -> String {
     let row = source.dialect().codes.iter().find(|row| row.op == op);
-    let code = row.map_or("M59", |row| row.code.as_str());
+    let word = row.and_then(|row| row.words.iter().find(|(_, role)| **role == Role::Output));
+    let number = word.map_or_else(String::new, |(letter, _)| format!(" {letter}1134"));
+    let code = row.map_or_else(|| op.to_string(), |row| format!("{}{number}", row.code));
     format!(
-        "if a code of the target's builder switches what this output does, name it in the source's profile, under [codes], with the number as it is \
-         written: \"{code} P1134\" = {{ target = \"M62\", text = \"probe on\" }}; else write do = \"omit\", \"stop\" or \"alarm\" in place of target"
+        "if a code of the target's builder does the same, name it in the source's profile, under [codes], as this one is written: \"{code}\" = {{ \
+         target = \"M62\", text = \"probe on\" }}; else write do = \"omit\", \"stop\" or \"alarm\" in place of target"
     )
 }
 

@@ -45,7 +45,17 @@ pub(super) fn tell(
     let mut values: BTreeMap<Arc<str>, Vec<(f64, usize)>> = BTreeMap::new();
     for (index, found) in found {
         for (span, mut what, mut help, mut so) in found {
-            if let So::Supposed(Predicate::Setting(name, value)) = &so {
+            let stated = match &so {
+                So::Supposed(Predicate::Setting(name, _)) if is_way_back(name, context.target) => {
+                    context.target.setting(name).map(str::to_owned)
+                }
+                _ => None,
+            };
+            if let (So::Supposed(Predicate::Setting(name, value)), Some(stated)) = (&so, stated) {
+                // Another cycle of the program may need what the profile says.
+                (what, help) = another_way_back((name, *value), &stated, "the profile says");
+                so = So::Open;
+            } else if let So::Supposed(Predicate::Setting(name, value)) = &so {
                 let known = values.entry(name.clone()).or_default();
                 let other = |(first, _): &&(f64, usize)| first.to_bits() != value.to_bits();
                 // A value that this program itself needs otherwise counts before one of another.
@@ -64,7 +74,7 @@ pub(super) fn tell(
                     let goes_back = together && is_way_back(name, context.target);
                     let other = (first, (!is_own).then_some(program));
                     (what, help) = if goes_back {
-                        another_way_back((name, *value), first)
+                        another_way_back((name, *value), &first.to_string(), "a cycle before needs")
                     } else {
                         two_values((name, *value), other, module)
                     };
@@ -137,14 +147,16 @@ fn is_way_back(name: &str, target: &Control) -> bool {
     })
 }
 
-/// What is said of another way back, which the target does not take.
-fn another_way_back((name, value): (&str, f64), first: f64) -> (String, String) {
+/// What is said of another way back than the target's; `who` says that the target goes back so.
+fn another_way_back((name, value): (&str, f64), there: &str, who: &str) -> (String, String) {
     let (kind, number) = setting_named(name);
     let what = format!(
-        "the passes of this cycle go back by {first} on the target, as {kind} {number} is for a cycle before, and by {value} on the source: no \
-         program can change it"
+        "the passes of this cycle go back by {value} on the source and by {there} on the target, as {who}: no program can change {kind} {number}"
     );
-    (what, "look whether the tool has that much room, most of all in a bore; else give both cycles the same value".into())
+    let help = format!(
+        "look whether the tool has that much room, most of all in a bore; or set it to {value} before the program is run, if all its cycles need that"
+    );
+    (what, help)
 }
 
 /// What is said where moves take the place of a cycle, and what to do to keep the cycle.

@@ -6,8 +6,8 @@
 //! Side conditions, each refused: G1 and G90 are known to be in force; the block names X, Y or Z alone, and none of them can be vacant; no
 //! compensation, cycle, mirror, scaling or rotation and no feed in inverse time can be in force; no length is taken up or ended in it, and
 //! after the last length something went to a place along Z: an increment may make up for one that has not counted yet.
-//! Where it is not known which code is in force, or a word was read by a computed
-//! number of a system variable, a reviewer has to look. Counter-example: `G53 G1 Z-5. F20.`, a crash where it is rapid.
+//! Where it is not known which code is in force, or a word holds what was read by a
+//! computed number of the system's, a reviewer has to look. Counter-example: `G53 G1 Z-5. F20.`, a crash where it is rapid.
 
 use super::home::{absent, unsure};
 use crate::canon::{Group, Op, Role, Sys};
@@ -15,6 +15,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Units};
 use crate::ir::analysis::behind::behind_or_entered;
 use crate::ir::analysis::modal_facts::replace_statements;
+use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, constant_part};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
@@ -34,20 +35,26 @@ const UNIT: &str = "a feed move in machine coordinates becomes an increment from
 const UNIT_HELP: &str = "if the machine has the unit of the program, say so in the target's machine profile, as units; else read the machine's position in MDI under \
      this unit, and compare it with the machine position on the screen";
 
-const VACANT: &str = "a word of this move in machine coordinates was read by a computed number of a system variable, and it must have a value in each run: \
-     where it is vacant, the source leaves the axis where it is, and the target goes to 0 of the machine";
+const VACANT: &str = "a word of this move in machine coordinates comes from a variable whose number is computed: where that variable is vacant, the source leaves \
+     the axis where it is, and the target goes to machine 0. Make sure that it has a value in each run";
 
-/// System variables have numbers from here on.
-const SYSTEM: f64 = 1000.0;
-
-/// The library with what is read by a number that counts on from that of a system variable taken to have a value.
-fn with_system_reads(module: &Module) -> Module {
+/// The library with what is read by a number that counts on from one of the system's taken to have a value.
+fn with_system_reads(module: &Module, source: &Control) -> Module {
+    // Systems count axes from the number before the first.
+    let of_system = |number: f64| {
+        let first = whole(number);
+        first.is_some_and(|first| {
+            (first..=first.saturating_add(1)).any(|number| source.numbered_state(number).is_some())
+        })
+    };
     let mut read = module.clone();
     for stmt in
         read.programs.iter_mut().flat_map(|program| &mut program.blocks).flat_map(|block| &mut block.stmts)
     {
         stmt.kind.exprs_mut(&mut |e| {
-            if matches!(e, Expr::Indirect(Bank::Numbered, number) if constant_part(number) >= Some(SYSTEM)) {
+            if let Expr::Indirect(Bank::Numbered, number) = e
+                && constant_part(number).is_some_and(of_system)
+            {
                 *e = Expr::Number(0.0);
             }
         });
@@ -71,7 +78,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let lacks = if may_lack.is_empty() {
         BTreeSet::new()
     } else {
-        absent(&with_system_reads(module), &context.summaries(module), Op::MachineOnce)
+        absent(&with_system_reads(module, context.source), &context.summaries(module), Op::MachineOnce)
     };
     replace_statements(module, &facts, |index, state, stmt, out| {
         state.step(&stmt);

@@ -207,7 +207,7 @@ fn ends_cycles(target: &Runs, act: &Act<'_>) -> bool {
     act.told == Told::Implied && target.spindle == *act.what && target.last != target.spindle
 }
 
-/// True for the end of what a stop of the target has ended, and the target's next act does not start again.
+/// True for an end on the source of what the target's stop ended before, unless the target starts it again next.
 fn ended_before(target: &Runs, act: &Act<'_>, others: &[Act<'_>]) -> bool {
     runs(&act.what).is_some_and(|running| {
         let at = running as usize;
