@@ -210,7 +210,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             let runs = |side: usize, acts: &[Act<'r>], others: &[Act<'r>], runs: &[Runs; 2]| {
                 acts.first().is_some_and(|act| {
                     may_do_so(act, others, side == 1)
-                        || runs[side].is_told(&runs[1 - side], act)
+                        || runs[side].is_told(&runs[1 - side], act, others)
                         || runs[side].lets_go(acts)
                         || runs[side].stays_open(act)
                         || runs[side].is_idle_speed(acts)

@@ -150,9 +150,14 @@ impl Runs {
         is_held && stops && open
     }
 
-    /// True if a change says what is known to run on the other side already, and may have run here.
-    pub fn is_told(&self, other: &Self, act: &Act<'_>) -> bool {
+    /// True if a change says what is known to run on the other side already, and may have run here; not if the other side
+    /// changes it next, which comes before what is said here.
+    pub fn is_told(&self, other: &Self, act: &Act<'_>, others: &[Act<'_>]) -> bool {
         let Some(running) = runs(&act.what) else { return false };
+        let next = others.first().filter(|next| runs(&next.what) == Some(running));
+        if other.by_stop[running as usize] && next.is_some_and(|next| next.told != Told::Implied) {
+            return false;
+        }
         let there = match running {
             Running::Spindle => [&other.spindle, &other.last],
             Running::Coolant => [&other.coolant; 2],

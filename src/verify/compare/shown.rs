@@ -8,6 +8,7 @@ use crate::canon::{Op, Sys};
 use crate::control::trace::{EventKind, Spindle};
 use crate::control::{End, Stop};
 use crate::dialect::Control;
+use std::collections::BTreeSet;
 
 /// True if the control has no stop with a message and no alarm of the program's own, but shows texts.
 pub fn lacks_messages(control: &Control) -> bool {
@@ -80,7 +81,7 @@ fn message(text: &str, next: &EventKind) -> Option<EventKind> {
 }
 
 /// Without the output that the target's profile says to leave out: a text before a stop is such, where the target stops
-/// without one.
+/// without one, and a text before a question that the target asks without one.
 pub fn without_outputs<'r>(mut ours: Vec<Act<'r>>, theirs: Vec<Act<'r>>) -> (Vec<Act<'r>>, Vec<Act<'r>>) {
     let stops = |act: &Act<'_>| matches!(*act.what, EventKind::Stop | EventKind::Message { .. });
     let bare: Vec<bool> =
@@ -90,18 +91,29 @@ pub fn without_outputs<'r>(mut ours: Vec<Act<'r>>, theirs: Vec<Act<'r>>) -> (Vec
             act.what = What::Own(&act.event.what);
         }
     }
-    (outputs_out(ours), outputs_out(theirs))
+    let asked = questions(&theirs).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
+    let wanted = |number: usize| asked.get(number).copied().unwrap_or(true);
+    (outputs_out(ours, wanted), outputs_out(theirs, |_| true))
 }
 
-/// What stands before a question is its text, and no output.
-fn outputs_out(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
-    let asks = |act: Option<&Act<'_>>| act.is_some_and(|act| matches!(*act.what, EventKind::Asked { .. }));
-    let stays: Vec<bool> = acts
-        .iter()
-        .enumerate()
-        .map(|(at, act)| !matches!(*act.what, EventKind::Output { .. }) || asks(acts.get(at + 1)))
-        .collect();
-    acts.into_iter().zip(stays).filter_map(|(act, stays)| stays.then_some(act)).collect()
+/// Where questions are asked, and whether a text stands right before each.
+fn questions(acts: &[Act<'_>]) -> Vec<(usize, bool)> {
+    let asks = |act: &Act<'_>| matches!(*act.what, EventKind::Asked { .. });
+    let text = |at: usize| at > 0 && is_output(&acts[at - 1]);
+    acts.iter().enumerate().filter(|(_, act)| asks(act)).map(|(at, _)| (at, text(at))).collect()
+}
+
+fn is_output(act: &Act<'_>) -> bool {
+    matches!(*act.what, EventKind::Output { .. })
+}
+
+/// What stands before a question is its text, and no output, if the question of that number has a text.
+fn outputs_out<'r>(acts: Vec<Act<'r>>, wanted: impl Fn(usize) -> bool) -> Vec<Act<'r>> {
+    let asked = questions(&acts).into_iter().enumerate();
+    let texts: BTreeSet<usize> =
+        asked.filter(|(number, (_, text))| *text && wanted(*number)).map(|(_, (at, _))| at - 1).collect();
+    let stays = |at: usize, act: &Act<'_>| !is_output(act) || texts.contains(&at);
+    acts.into_iter().enumerate().filter(|(at, act)| stays(*at, act)).map(|(_, act)| act).collect()
 }
 
 /// Why two ends are not the same, if they are not.

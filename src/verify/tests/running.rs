@@ -139,6 +139,22 @@ fn a_speed_before_a_stop_says_nothing_of_a_spindle_that_may_stand() {
     assert_eq!(found("S500M3\nG1X5."), Outcome::Different);
 }
 
+/// The target's question stops the spindle and the target starts it again; after that both stop it by a code.
+#[test]
+fn an_end_after_a_question_is_not_the_end_by_the_question() {
+    let found = |after: &str| {
+        let start = |offset: &str| format!("O1\nG90G17G40G49G80{offset}\nS800M3\nG1F300.\nX1.\n");
+        let source = format!("{}#INPUT V5\nG1X1.\nM5\n#PRINT \"DONE\"\nM2\n", start("E1"));
+        let target =
+            format!("{}#550=0\n#3006=1(SET #550)\n{after}POPEN\nDPRNT[DONE]\nPCLOS\nM2\n", start("G54"));
+        programs(("fadal", &source), ("haas", &target), &[("V5", 550)])[0].outcome
+    };
+    assert_ne!(found("M3\nG1X1.\nM5\n"), Outcome::Different);
+    assert_ne!(found("M5\n"), Outcome::Different);
+    assert_eq!(found("M3\nG1X1.\n"), Outcome::Different);
+    assert_eq!(found("M4\nG1X1.\nM5\n"), Outcome::Different);
+}
+
 /// G74 leaves the spindle turned round: what goes on is that.
 #[test]
 fn a_cycle_leaves_the_spindle_turned_round() {

@@ -4,6 +4,12 @@ use super::*;
 
 /// How a pair of programs comes out between two machines, and why it is open.
 fn judged(profiles: [&str; 2], source: &str, target: &str) -> (Outcome, String) {
+    renamed(profiles, source, target, &[])
+}
+
+/// The same, with the registers of variables.
+fn renamed(profiles: [&str; 2], source: &str, target: &str, variables: &[(&str, u32)]) -> (Outcome, String) {
+    let variables = variables.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
     let controls = profiles.map(|text| Control::from_profile(text).unwrap());
     let texts = [source, target];
     let parsed: [_; 2] =
@@ -14,7 +20,7 @@ fn judged(profiles: [&str; 2], source: &str, target: &str) -> (Outcome, String) 
     let job = Job {
         source: &source,
         target: &target,
-        names: &SymbolMap::default(),
+        names: &SymbolMap { variables, ..SymbolMap::default() },
         assumptions: &Assumptions::new(),
         effort: Effort::default(),
         spent: &Spent::default(),
@@ -73,6 +79,19 @@ fn output_before_a_stop_may_be_left_out() {
     assert_ne!(found.0, Outcome::Different, "{}", found.1);
     let (outcome, what) = judged([FADAL, CC100], source, target);
     assert_eq!((outcome, what.as_str()), (Outcome::Different, "they do different things"));
+}
+
+/// A value in a question's text goes with the output that the profile leaves out, and the question is asked without it.
+#[test]
+fn a_question_may_be_asked_without_its_text() {
+    let source = "O1\n#PRINT \"DEPTH \",V1\n#INPUT V2\nG90 G0 X1.\nM2\n";
+    let target = "N1 V32=0\nN2 M0\nN3 (SET V32)\nN4 G90 G0 X1\nN5 M30\n";
+    let found =
+        |profile: &str, target: &str| renamed([FADAL, profile], source, target, &[("V1", 31), ("V2", 32)]);
+    let omits = format!("{CC100}outputs = \"omit\"\n");
+    assert_ne!(found(&omits, target).0, Outcome::Different, "{}", found(&omits, target).1);
+    assert_eq!(found(CC100, target).0, Outcome::Different);
+    assert_eq!(found(&omits, &target.replace("SET V32", "SET V31")).0, Outcome::Different);
 }
 
 /// Who has said what the word of the tool in the spindle does is not asked by each program.
