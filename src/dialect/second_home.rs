@@ -36,6 +36,11 @@ impl Control {
         rows.find(|row| row.sets.values().any(|sets| sets.contains_key(key)))
     }
 
+    /// How far over the last depth a peck of the machine begins, millimetres, as far as its table or its profile says it.
+    pub fn peck_clearance(&self) -> Option<f64> {
+        self.behaviour(Question::CyclePeckClearance)?.value.parse().ok()
+    }
+
     /// The place along X, Y and Z as far as the profile gives it: millimetres of machine coordinates, X of a lathe a diameter.
     pub fn second_home(&self) -> [Option<f64>; 3] {
         let unit = if self.units() == Some(Units::Inch) { 25.4 } else { 1.0 };

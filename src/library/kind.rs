@@ -195,6 +195,18 @@ mod tests {
     }
 
     #[test]
+    fn a_lathe_may_have_y() {
+        let live = ("live.nc", "O3\nT0404\nM133 P2000\nG0 X50. Y0. Z2.\nG1 Y12. F.1\nM135\nM30\n");
+        assert_eq!(taken("dialect = \"haas\"", &[SHAFT, live]).unwrap().place, "shaft.nc:3");
+        let home = ("family.nc", "O6\nG18 G99\nG53 X0.\nG53 Y0.\nG65 P1 D1.\nM30\n");
+        assert_eq!(taken("dialect = \"haas\"", &[home, SHAFT]).unwrap().place, "shaft.nc:3");
+        // A tool that is made ready for its change.
+        let mill = ("mill.nc", "O4\nT0404\nM6\nG0 G54 X50. Y0.\nG1 Y12. F100.\nM30\n");
+        assert_eq!(taken(FANUC, &[mill]), None);
+        assert_eq!(taken(FANUC, &[("plain.nc", "O5\nG0 G54 X50. Y0.\nG1 Y12. F100.\nM30\n")]), None);
+    }
+
+    #[test]
     fn what_a_profile_says_counts() {
         assert_eq!(taken("dialect = \"fanuc\"\nmachine = \"mill\"", &[SHAFT]), None);
         assert_eq!(taken("dialect = \"fanuc\"\nmachine = \"lathe\"", &[SHAFT]), None);

@@ -1,13 +1,13 @@
 //! Programs of a lathe among those of a library that is read as a mill's.
 //!
 //! Law: a program is for a lathe if its own text has more signs of a lathe than of a mill. A sign of a lathe is a letter
-//! that only a lathe has; Y, a length offset and a change by M6 are signs of a mill. What a lathe program calls, what
-//! calls it and what stands in its file are a lathe's too, unless their own text is a mill's. What both kinds lead to may
-//! be for either. A program without NC words does the same on both machines. A program without any sign follows the rest
-//! of its library, if no program there is a mill's. If the library has programs of both kinds and
-//! the program a code that means something else on a lathe (G90, G92, G94, G98), nobody can tell: it is refused too.
-//! A machine profile may say `machine = "mill"`. Then only what no mill has is a sign, and only programs that are linked
-//! with such a program go with it.
+//! that only a lathe has; Y, a length offset and a change by M6 are signs of a mill. Y is none beside tool words with an
+//! offset in them, if no length and no change shows a mill. What a lathe program calls, what calls it and what stands in
+//! its file are a lathe's too, unless their own text is a mill's. What both kinds lead to may be for either. A program
+//! without NC words does the same on both machines. A program without any sign follows the rest of its library, if no
+//! program there is a mill's. If the library has programs of both kinds and the program a code that means something else
+//! on a lathe (G90, G92, G94, G98), nobody can tell: it is refused too. A machine profile may say `machine = "mill"`. Then
+//! only what no mill has is a sign, and only programs that are linked with such a program go with it.
 
 use super::Input;
 use crate::canon::{Op, Role};
@@ -24,6 +24,12 @@ const ENOUGH: u32 = 3;
 
 /// How strong signs of a mill are that no lathe program has by chance.
 const SURELY: u32 = 2;
+
+/// Signs of a mill: the axis, which lathes with live tools have too, and what no lathe has.
+const Y: &str = "Y";
+const Y_COUNTS: u32 = 5;
+const LENGTH: &str = "a tool length offset";
+const CHANGE: &str = "a tool change by M6";
 
 /// What a program's own text says of its machine.
 #[derive(Clone, Debug, Default)]
@@ -74,6 +80,13 @@ impl Signs {
             }
             signs.mill += mill_signs(nc).filter(|(_, what)| words.insert(what)).map(|(n, _)| n).sum::<u32>();
         }
+        if signs.lathe >= ENOUGH
+            && words.contains(Y)
+            && ![LENGTH, CHANGE].iter().any(|what| words.contains(what))
+        {
+            // A lathe has Y too: across its live tools, and as the second axis of a face.
+            signs.mill -= Y_COUNTS;
+        }
         signs
     }
 }
@@ -107,10 +120,13 @@ fn lathe_signs(nc: &Nc, source: &Control) -> impl Iterator<Item = (u32, &'static
 /// What in a block is a mill's.
 fn mill_signs(nc: &Nc) -> impl Iterator<Item = (u32, &'static str)> {
     let length = nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
+    // Every machine that has the axis sends it home.
+    let home = nc.ops().any(|op| op == Op::MachineOnce || op.is_return());
     let signs = [
-        (has(nc, Role::Y), 5, "Y"),
-        (length, 3, "a tool length offset"),
-        (nc.has(Op::ToolChange), 2, "a tool change by M6"),
+        (has(nc, Role::Y) && !home, Y_COUNTS, Y),
+        (has(nc, Role::Y) && home, 1, "a return of Y"),
+        (length, 3, LENGTH),
+        (nc.has(Op::ToolChange), 2, CHANGE),
         (has(nc, Role::RadiusOffset), 1, "a cutter radius by D"),
     ];
     signs.into_iter().filter(|(there, _, _)| *there).map(|(_, weight, what)| (weight, what))

@@ -33,7 +33,7 @@ pub use variables::AskedVariables;
 pub use words::AskedWord;
 
 use crate::diag::{Code, Diagnostic, Severity};
-use crate::dialect::{Control, Settled};
+use crate::dialect::{Control, Question, Settled};
 use crate::library::{
     Conversion, Input, Lock, Options, Outcome, ProgramReport, TakenAsLathe, Told, Understood, convert,
     is_of_another, outcome, understood,
@@ -206,7 +206,12 @@ impl Survey<'_> {
         let asked = keys::asked(places, self.controls, &best.programs);
         let is_known =
             |new: &AskedSetting| self.settings.iter().any(|old| old.side == new.side && old.name == new.name);
-        let new: Vec<AskedSetting> = asked.into_iter().filter(|new| !is_known(new)).collect();
+        // A length that was read in a unit that nobody has said yet.
+        let has_unit = self.controls.iter().any(|control| control.units().is_some());
+        let is_guessed =
+            |new: &AskedSetting| !has_unit && Question::find(&new.name) == Some(Question::CyclePeckClearance);
+        let new: Vec<AskedSetting> =
+            asked.into_iter().filter(|new| !is_known(new) && !is_guessed(new)).collect();
         self.settings.extend(new);
         let words = words::asked(places, &best.programs).into_iter();
         let words: Vec<AskedWord> = words.filter(|new| !self.words.iter().any(|old| old.is(new))).collect();

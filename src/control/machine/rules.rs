@@ -234,9 +234,7 @@ impl Rules {
             no_centre: fact(control, Question::ArcWithoutCentre, no_centre, NoCentre::Alarm),
             centre_is_incremental: fact(control, Question::ArcCentre, word("incremental", "absolute"), true),
             taps_wait: control.behaviour(Question::TapDwell).is_none_or(|row| row.value != "none"),
-            peck_clearance: control
-                .behaviour(Question::CyclePeckClearance)
-                .and_then(|row| row.value.parse().ok()),
+            peck_clearance: control.peck_clearance(),
             planes_frozen: yes(control, Question::CyclePlanesFrozen, true),
             zero_repeats_stores: yes(control, Question::CycleL0Stores, true),
             repeats_move: yes(control, Question::RepeatMoves, false),

@@ -22,9 +22,7 @@ fn told(nc: &Nc, state: &Modal, context: &Context<'_>) -> Option<f64> {
 /// Takes the word out where the target's machine has the same clearance; else the clearance that it would have to have, in millimetres.
 pub(super) fn fit(nc: &mut Nc, state: &Modal, context: &Context<'_>) -> Option<f64> {
     let needed = told(nc, state, context)?;
-    let row = context.target.behaviour(Question::CyclePeckClearance);
-    let own: Option<f64> = row.and_then(|row| row.value.parse().ok());
-    if own.is_some_and(|own| (own - needed).abs() < 1e-4) {
+    if context.target.peck_clearance().is_some_and(|own| (own - needed).abs() < 1e-4) {
         nc.items.retain(|item| !matches!(item, NcItem::Word(Role::PeckClear, _)));
     }
     Some((needed * 1e6).round() / 1e6)

@@ -155,6 +155,7 @@ impl Proposals {
         for (axis, place) in self.inputs.second_home.into_iter().enumerate() {
             scenario.references[1][axis] = place.unwrap_or(scenario.references[1][axis]);
         }
+        scenario.peck_clearance = self.inputs.peck_clearance.unwrap_or(scenario.peck_clearance);
         self.tables(&mut scenario, count);
         // The machine has those rotary axes that its programs name.
         for axis in (3..6).filter(|axis| self.inputs.turns_by_sign || !self.inputs.rotary[axis - 3]) {

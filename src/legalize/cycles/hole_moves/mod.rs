@@ -333,8 +333,7 @@ impl Writer<'_, '_> {
 
     /// How far over the last depth the source begins a step, in the program's unit.
     fn clearance(&self, modal: &Modal) -> Option<f64> {
-        let row = self.context.source.behaviour(Question::CyclePeckClearance)?;
-        let by: f64 = row.value.parse().ok()?;
+        let by = self.context.source.peck_clearance()?;
         let own = self.context.source.units().or(self.context.target.units());
         let inch = match modal.op(Group::Units) {
             Some(op) => op == Op::Inch,

@@ -27,6 +27,8 @@ pub struct Inputs {
     pub turns_by_sign: bool,
     /// Where the target's profile says that the second reference position is, along X, Y and Z: millimetres, X of a lathe a diameter.
     pub second_home: [Option<f64>; 3],
+    /// How far over the last depth a peck begins on the machine whose profile says it, millimetres: the other is taken to be set so.
+    pub peck_clearance: Option<f64>,
     /// True where tools are not worn: a round pocket takes a tool's radius off by itself, and the target keeps no wear apart, so
     /// that the shop's table there holds both in one number.
     pub unworn: bool,

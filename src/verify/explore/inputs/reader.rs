@@ -292,6 +292,7 @@ impl<'c> Reader<'c> {
             rotary: [false; 3],
             turns_by_sign: false,
             second_home: [None; 3],
+            peck_clearance: None,
             unworn: self.pockets,
             many_tools: false,
             inch: self.inch,
