@@ -160,6 +160,13 @@ impl<'b> Lowering<'b> {
         }
     }
 
+    /// Reports, once for each program, what is the same for all of them.
+    pub fn once_for_all(&mut self, code: Code, span: Span, message: &'static str) {
+        if self.told.insert(message.to_owned()) {
+            self.findings.add(Diagnostic::new(code, span, message).asked_once());
+        }
+    }
+
     /// Reports, once for each variable, that it is read while moves may be to come.
     pub fn early(&mut self, name: &str, span: Span, message: String) {
         if self.told.insert(format!("early {name}")) {

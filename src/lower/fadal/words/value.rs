@@ -81,9 +81,9 @@ impl<'b> Lowering<'b> {
     fn speed(&mut self, value: Expr, span: Span) -> Option<Expr> {
         match value.constant() {
             Some(speed) if speed.fract() != 0.0 && self.findings.is(Question::SpindleRangeSuffix, span) => {
-                let message =
-                    format!("S{speed} is {} rpm; its last digit picks the belt range", speed.trunc());
-                self.once(Code::SpeedRange, &message, span, message.clone());
+                let message = "the digit after the point of S picks the belt range here; the target picks its range by the \
+                               speed";
+                self.once_for_all(Code::SpeedRange, span, message);
                 Some(Expr::Number(speed.trunc()))
             }
             _ => Some(value),
