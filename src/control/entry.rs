@@ -81,6 +81,8 @@ impl Entry {
         if (self.coolant, self.coolant_kind) != (other.coolant, other.coolant_kind) {
             (self.coolant, self.coolant_kind) = (false, None);
         }
+        // Cycles differ from call to call: that there is one is what they have in common.
+        self.cycle = self.cycle.filter(|_| other.cycle.is_some());
         self.work = self.work.filter(|_| self.work == other.work);
         self.feed = self.feed.filter(|_| self.feed == other.feed);
     }

@@ -5,7 +5,7 @@ use super::frame::Rotation;
 use super::tooling::LostBy;
 use super::{Machine, Op};
 use crate::canon::Running;
-use crate::control::entry::Entry;
+use crate::control::entry::{Drilling, Entry};
 use crate::control::scenario::AXES;
 use crate::control::trace::{EventKind, FeedMode, Plane, Side, Spindle, Told, Trace};
 
@@ -108,6 +108,7 @@ impl Machine {
         let coolant = runs(Running::Coolant);
         let lost = |by| self.length_lost.is_some_and(|lost| lost.may_be(by));
         let has_length = self.length_op != Op::LengthOff;
+        let cycle = self.cycle.as_ref().and_then(|cycle| cycle.planes(None));
         Entry {
             work: self.has_no_offset().then_some(0),
             length: has_length.then_some(self.length_offset),
@@ -123,6 +124,7 @@ impl Machine {
             clockwise: turns && self.spindle == Spindle::Clockwise,
             coolant,
             coolant_kind: Some(self.coolant).filter(|op| coolant && *op != Op::Flood),
+            cycle: cycle.map(|planes| Drilling { retract: planes.r, bottom: planes.bottom }),
             ..Entry::default()
         }
     }

@@ -46,6 +46,8 @@ enum Feed {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modal {
     settings: [Setting; Group::ALL.len()],
+    /// Whether a drilling cycle is in force, whichever; absent where paths disagree.
+    drills: Option<bool>,
     /// True where some way here cancelled all zero shifts and selected none since.
     pub may_be_cancelled: bool,
     /// What some way here did since the tool length was named that may have cancelled it.
@@ -72,6 +74,7 @@ impl Modal {
     pub fn unknown() -> Self {
         Self {
             settings: [Setting::Unknown; Group::ALL.len()],
+            drills: None,
             may_be_cancelled: false,
             length_lost: LengthLost::default(),
             length_named: false,
@@ -111,6 +114,14 @@ impl Modal {
     /// Puts an operation in force from the start.
     pub fn start_in(&mut self, op: Op) {
         self.settings[op.group() as usize] = Setting::Known(op, None);
+        if op.group() == Group::Cycle {
+            self.drills = Some(op.is_cycle());
+        }
+    }
+
+    /// Whether a drilling cycle is in force, whichever: known also where ways with different cycles meet.
+    pub fn drills(&self) -> Option<bool> {
+        self.drills
     }
 
     /// What is in force of a group.
@@ -274,6 +285,9 @@ impl Modal {
         for (at, mine) in self.settings.iter_mut().enumerate().filter(|(at, _)| !touches.groups[*at]) {
             *mine = before.settings[at];
         }
+        if !touches.groups[Group::Cycle as usize] {
+            self.drills = before.drills;
+        }
         if !touches.groups[Group::WorkOffset as usize] {
             self.may_be_cancelled = before.may_be_cancelled;
         }
@@ -300,6 +314,7 @@ impl Modal {
     fn forget(&mut self) {
         let unit = self.of(Group::Units);
         self.settings = [Setting::Unknown; Group::ALL.len()];
+        self.drills = None;
         if self.one_unit {
             self.settings[Group::Units as usize] = unit;
         }
@@ -322,6 +337,9 @@ impl Modal {
         if op.group() == Group::Motion {
             self.settings[Group::Cycle as usize] = Setting::Known(Op::CycleOff, None);
         }
+        if matches!(op.group(), Group::Cycle | Group::Motion) {
+            self.drills = Some(op.is_cycle());
+        }
     }
 }
 
@@ -333,6 +351,8 @@ impl Lattice for Modal {
             let joined = mine.join(*theirs);
             changed |= std::mem::replace(mine, joined) != joined;
         }
+        changed |= self.drills.is_some() && self.drills != other.drills;
+        self.drills = self.drills.filter(|drills| other.drills == Some(*drills));
         if self.feed != other.feed && self.feed != Feed::Unknown {
             self.feed = Feed::Unknown;
             changed = true;

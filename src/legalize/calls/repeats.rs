@@ -8,7 +8,7 @@
 //! computed from, so such a block is refused.
 //! Counter-example: `X1. L3` under a cycle whose state is not known here, which is refused.
 
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{
@@ -47,6 +47,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
+/// Whether a drilling cycle is in force; `any` if the library has some.
+fn drills_here(state: &Modal, any: bool) -> Option<bool> {
+    state.drills().or((!any).then_some(false))
+}
+
 /// A repeat outside of drilling cycles is copied; what both controls make of it must be confirmed.
 fn doubt(program: &Program, index: usize, drills: bool, facts: &ModalFacts, context: &mut Context<'_>) {
     for (id, block) in program.ids().zip(&program.blocks) {
@@ -54,8 +59,7 @@ fn doubt(program: &Program, index: usize, drills: bool, facts: &ModalFacts, cont
         for stmt in &block.stmts {
             state.step(stmt);
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
-            let cycle = state.op(Group::Cycle).or((!drills).then_some(Op::CycleOff));
-            if nc.word(Role::Repeat).is_some() && !cycle.is_some_and(Op::is_cycle) {
+            if nc.word(Role::Repeat).is_some() && !drills_here(&state, drills).unwrap_or(false) {
                 context.rests_on_source(index, stmt.site.span, Question::RepeatMoves);
                 context.rests_on_target(index, stmt.site.span, Question::RepeatMoves);
             }
@@ -71,8 +75,8 @@ fn once(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts, c
             state.step(stmt);
             let span = stmt.site.span;
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-            let cycle = state.op(Group::Cycle).or((!drills).then_some(Op::CycleOff));
-            if nc.word(Role::Repeat).is_none() || cycle.is_some_and(Op::is_cycle) {
+            let cycle = drills_here(&state, drills);
+            if nc.word(Role::Repeat).is_none() || cycle == Some(true) {
                 continue;
             }
             context.rests_on_source(index, span, Question::RepeatMoves);
@@ -102,10 +106,8 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
             StmtKind::Nc(nc) if !nc.ops().any(Op::is_cycle) => nc.word(Role::Repeat).cloned(),
             _ => None,
         };
-        let cycle = state.op(Group::Cycle).or((!drills).then_some(Op::CycleOff));
-        let (Some(count), StmtKind::Nc(nc)) =
-            (count.filter(|_| cycle.is_none_or(|op| !op.is_cycle())), &stmt.kind)
-        else {
+        let cycle = drills_here(&state, drills);
+        let (Some(count), StmtKind::Nc(nc)) = (count.filter(|_| cycle != Some(true)), &stmt.kind) else {
             return builder.push(stmt.kind, stmt.site);
         };
         let span = stmt.site.span;

@@ -13,6 +13,7 @@
 
 mod after;
 mod kinds;
+mod lost;
 
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
@@ -109,7 +110,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let facts = context.modal_facts(module);
     let (after, started) = (After::of(module, &facts), started(module, context));
     let holds = context.features.op(Op::SpindleOrient);
-    let lost = lost(module, context.source);
+    let lost = lost::lost(module, context.source);
     let passes = |control: &Control| {
         control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
     };
@@ -139,24 +140,6 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
         }
     }
     found
-}
-
-/// What a stop or a tool change may end for the source without the same block starting it again, somewhere in the library.
-fn lost(module: &Module, source: &Control) -> [bool; 2] {
-    let blocks = || module.programs.iter().flat_map(|program| &program.blocks);
-    Running::ALL.map(|running| {
-        let (group, _) = ends(running);
-        blocks().any(|block| {
-            // Words alone neither stop nor say anything.
-            let has_codes = |stmt: &&Stmt| !matches!(&stmt.kind, StmtKind::Nc(nc) if nc.is_words());
-            block.stmts.iter().filter(has_codes).fold(false, |ended, stmt| {
-                let may_end = |(pause, _)| source.ends(pause, running).answer != Some(false);
-                let stops = pause_of(&stmt.kind).filter(|(pause, _)| *pause != Pause::Message);
-                let says = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.ops().any(|op| op.group() == group));
-                !says && (ended || stops.is_some_and(may_end))
-            })
-        })
-    })
 }
 
 /// Puts what ends something before the stops of a block, and after them what is started again.

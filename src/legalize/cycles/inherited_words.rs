@@ -2,12 +2,12 @@
 //!
 //! Law: I, J, K and R without a code are what the code in force takes them for. Lowering reads a program alone, and takes them for
 //! words of an arc where no code of the program says what is in force: where all callers have one drilling cycle in force, they are
-//! the words of its code. Side condition: the cycle is known on every way. Counter-example: `X10. K3` in a program that `G81` and
-//! `M98` come to, which makes three holes.
+//! the words of its code; where their cycles differ, those that all cycles of the source take alike. Side condition: a cycle is in
+//! force on every way. Counter-example: `X10. K3` in a program that `G81` and `M98` come to, which makes three holes.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{CodeMeaning, Control};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
@@ -32,9 +32,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
                 state.step(stmt);
-                let Some(cycle) = state.op(Group::Cycle).filter(|op| op.is_cycle()) else { continue };
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-                if has_code(nc) || !take(nc, cycle, context.source) {
+                if state.drills() != Some(true) || has_code(nc) {
+                    continue;
+                }
+                let rows = rows(state.op(Group::Cycle), context.source);
+                if !take(nc, &rows, context.source) {
                     continue;
                 }
                 changed = true;
@@ -50,19 +53,32 @@ fn has_code(nc: &Nc) -> bool {
     nc.ops().any(|op| matches!(op.group(), Group::Motion | Group::Cycle))
 }
 
+/// The rows of the cycle in force: of all cycles, where it is one or another.
+fn rows(cycle: Option<Op>, source: &Control) -> Vec<&CodeMeaning> {
+    match cycle {
+        Some(cycle) => source.code_for(cycle, &BTreeMap::new()).into_iter().collect(),
+        None => source.dialect().codes.iter().filter(|row| row.op.is_cycle()).collect(),
+    }
+}
+
+/// What a letter is to all of them; none where they differ, or one does not take it.
+fn role(letter: char, rows: &[&CodeMeaning]) -> Option<Role> {
+    let letter = letter.to_string();
+    let mut roles = rows.iter().map(|row| row.words.get(letter.as_str()));
+    let first = *roles.next()??;
+    roles.all(|role| role == Some(&first)).then_some(first)
+}
+
 /// Takes words of arcs for those of a cycle; true where one was.
-fn take(nc: &mut Nc, cycle: Op, source: &Control) -> bool {
-    let Some(row) = source.code_for(cycle, &BTreeMap::new()) else { return false };
+fn take(nc: &mut Nc, rows: &[&CodeMeaning], source: &Control) -> bool {
     let mut taken = false;
     for item in &mut nc.items {
         let NcItem::Word(role, value) = item else { continue };
         let letter = source.letter(*role, None).filter(|(_, comma)| !comma && ARC.contains(role));
-        let Some(own) = letter.and_then(|(letter, _)| row.words.get(letter.to_string().as_str())) else {
-            continue;
-        };
-        *role = *own;
+        let Some(own) = letter.and_then(|(letter, _)| self::role(letter, rows)) else { continue };
+        *role = own;
         // A count is a whole number, whatever a length without a point counts.
-        if let (Role::Repeat, Expr::Increments(count)) = (*own, &*value) {
+        if let (Role::Repeat, Expr::Increments(count)) = (own, &*value) {
             *value = Expr::Number(*count);
         }
         taken = true;

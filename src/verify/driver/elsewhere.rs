@@ -20,6 +20,9 @@ impl Verifier<'_, '_> {
             self.guessed(own, there);
         } else if self.witness.is_some() {
             self.each_as_called(own, there);
+            if self.in_cycle(there) {
+                return;
+            }
         }
         let selects = !lacks(self.job.target, Op::Inch);
         for inch in self.given.both_units().filter(|inch| selects && *inch != own).collect::<Vec<_>>() {
@@ -82,6 +85,24 @@ impl Verifier<'_, '_> {
         if self.witness.is_some() {
             self.or_begun_as(&self.given.in_straight_cut(), own, there);
         }
+    }
+
+    /// Begins in a drilling cycle, if every caller leaves one in force: what differs without one alone is for review. True if
+    /// that is all that differs.
+    fn in_cycle(&mut self, there: ProgramRef) -> bool {
+        let (Some(witness), Some(drilling)) = (&self.witness, self.given.in_cycle()) else { return false };
+        let text = format!(
+            "with a drilling cycle in force, as its callers run it, it does the same; otherwise not: {}",
+            witness.what
+        );
+        let mut other = self.anew(drilling);
+        other.search(there);
+        let is_all = other.witness.is_none() && other.compared > 0;
+        if is_all {
+            self.witness = None;
+            self.because(Why::NotByItself, &text);
+        }
+        is_all
     }
 
     /// Begins each side as its own callers do: the target's may leave other modes, of which they make something else.

@@ -2,7 +2,7 @@
 
 use crate::canon::{Group, Op};
 use crate::control::Scenario;
-use crate::control::entry::Entry;
+use crate::control::entry::{Drilling, Entry};
 use std::collections::BTreeSet;
 
 /// What the callers of a program give it, as far as their runs show.
@@ -13,6 +13,8 @@ pub struct EntryState {
     pub modes: Vec<Op>,
     /// What else all of them come in with each time: no work offset, a tool length, a spindle that runs.
     pub entry: Entry,
+    /// A drilling cycle that is in force each time, if there is one: it is begun in one only if that makes a difference.
+    pub cycle: Option<Drilling>,
     /// The units that they come in, true for inch.
     units: BTreeSet<bool>,
     /// True once anything is known of it.
@@ -36,8 +38,11 @@ impl EntryState {
     pub fn add(&mut self, modes: &[Op], entry: &Entry) {
         if !std::mem::replace(&mut self.any, true) {
             (self.modes, self.entry) = (modes.to_vec(), entry.clone());
+            self.cycle = entry.cycle;
         }
         self.entry.keep_common(entry);
+        self.entry.cycle = None;
+        self.cycle = self.cycle.filter(|_| entry.cycle.is_some());
         self.modes.retain(|op| modes.contains(op));
         self.units.extend(modes.iter().filter(|op| op.group() == Group::Units).map(|op| *op == Op::Inch));
     }
@@ -69,6 +74,12 @@ impl EntryState {
     pub fn in_straight_cut(&self) -> Self {
         let others = self.modes.iter().copied().filter(|op| op.group() != Group::Motion);
         Self { modes: others.chain([Op::Linear]).collect(), ..self.clone() }
+    }
+
+    /// The same with a drilling cycle in force, if there is one each time.
+    pub fn in_cycle(&self) -> Option<Self> {
+        let cycle = self.cycle?;
+        Some(Self { entry: Entry { cycle: Some(cycle), ..self.entry.clone() }, ..self.clone() })
     }
 
     /// The modes that are not those of power-on, the unit left out.

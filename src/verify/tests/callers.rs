@@ -154,6 +154,28 @@ fn called_programs_begin_as_their_callers_let_them() {
     assert_eq!(given(one, 0), "");
 }
 
+/// A list of holes that is called under drilling cycles alone: without one, a count is a repeat of the move on the target.
+#[test]
+fn a_list_of_holes_is_run_in_a_cycle() {
+    let library = |hole: &str, second: &str| {
+        format!(
+            "O1\nG21G90G54G0X0Y0\nG99G81Z-5.R2.F100.\nM98P2\nG80\nG0Z50.\n{second}M98P2\nG80\nM30\nO2\n{hole}\nG90\nM99\n"
+        )
+    };
+    let drills = "G99G82Z-7.R2.P100F80.\n";
+    let judged = |second: &str, wrong: &str| {
+        let (source, target) = (library("G91X40.K5", second), library(&format!("G91X40.L5{wrong}"), second));
+        programs(("fanuc", &source), ("haas", &target), &[]).remove(1)
+    };
+    let found = judged(drills, "");
+    assert_eq!(found.outcome, Outcome::Undecided, "{found:#?}");
+    let texts: Vec<&str> = found.reasons.iter().map(|reason| reason.text.as_str()).collect();
+    assert!(texts.iter().any(|text| text.contains("with a drilling cycle in force")), "{texts:?}");
+    // Called without a cycle too, or with another count, it is another program.
+    assert_eq!(judged("", "").outcome, Outcome::Different);
+    assert_eq!(judged(drills, "\nX1.").outcome, Outcome::Different);
+}
+
 /// O3 is come to in inches by way of O2, which by itself would be in the machine's millimetres.
 #[test]
 fn units_are_handed_on() {
