@@ -12,4 +12,4 @@ mod ways;
 pub use others::Others;
 pub use shape::{Goal, Shape, goal, return_goal};
 pub use state::{DEFAULT_PLACES, State};
-pub use ways::Flow;
+pub use ways::{Flow, end_skips};

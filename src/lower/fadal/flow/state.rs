@@ -85,11 +85,25 @@ pub struct State {
     pub modal_program: bool,
     /// The constants that R0 to R9 may hold, as bits.
     pub r: [OneOf<u64>; 10],
+    /// After a block with a block skip, its level, and what is set if the switch is on: a run of such blocks is run or passed over as a
+    /// whole. Nobody turns the switch within a run.
+    pub skipping: Option<(u8, Box<State>)>,
 }
 
 /// States of `self` or of `other`.
 impl Lattice for State {
     fn join(&mut self, other: &Self) -> bool {
+        let mut skips = false;
+        match (&mut self.skipping, &other.skipping) {
+            (None, None) => {}
+            (Some((level, on)), Some((other, there))) if level == other => skips = on.join(there),
+            _ => {
+                let (was, mut other) = (self.skipping.is_some(), other.clone());
+                self.end_skips(None);
+                other.end_skips(None);
+                return self.join(&other) || was;
+            }
+        }
         let (modal, subs) = (self.modal, self.modal_subs.len());
         self.modal = modal.max(other.modal);
         self.modal_subs.extend(&other.modal_subs);
@@ -107,11 +121,18 @@ impl Lattice for State {
         ];
         let registers = self.r.iter_mut().zip(&other.r).map(|(mine, theirs)| mine.join(theirs));
         let registers = registers.fold(false, |any, one| any | one);
-        registers || joined.contains(&true) || self.modal != modal || self.modal_subs.len() != subs
+        skips || registers || joined.contains(&true) || self.modal != modal || self.modal_subs.len() != subs
     }
 }
 
 impl State {
+    /// Ends a run of blocks with a block skip, unless the next block goes on with this level: both ways meet.
+    pub fn end_skips(&mut self, level: Option<u8>) {
+        if let Some((_, on)) = self.skipping.take_if(|(other, _)| Some(*other) != level) {
+            self.join(&on);
+        }
+    }
+
     /// At a program's first block.
     pub fn entry() -> Self {
         Self {

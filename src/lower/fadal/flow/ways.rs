@@ -7,7 +7,7 @@ use super::state::{MOST_MODAL, State};
 use crate::canon::{Op, Role};
 use crate::dialect::Control;
 use crate::ir::analysis::dataflow::{Lattice, OneOf, Routines};
-use crate::lower::common::constant;
+use crate::lower::common::{constant, says_something};
 use crate::lower::fadal::codes::{Codes, Step, operand, parametric, steps, word};
 use crate::syntax::{Block, Expr, Item, ItemKind};
 
@@ -25,6 +25,21 @@ pub struct Flow<'b> {
     left: Option<State>,
     /// True where it may end in another way than by a return to after its call.
     ends_elsewhere: bool,
+}
+
+/// Ends the run of blocks with a block skip that ends before this block. Remarks go on with any.
+pub fn end_skips(state: &mut State, block: &Block) {
+    if block.items.iter().any(says_something) {
+        state.end_skips(skip_level(block));
+    }
+}
+
+/// The level of a block's skip, if it has one.
+fn skip_level(block: &Block) -> Option<u8> {
+    block.items.iter().find_map(|item| match item.kind {
+        ItemKind::Skip(level) => Some(level.unwrap_or(1)),
+        _ => None,
+    })
 }
 
 impl<'b> Flow<'b> {
@@ -109,6 +124,12 @@ impl<'b> Flow<'b> {
             let Some(next) = self.block(block, at, state, None) else { return };
             state = next;
         }
+        match self.blocks.get(end) {
+            Some(next) if self.shape.region(end) == self.shape.region(end.saturating_sub(1)) => {
+                end_skips(&mut state, next);
+            }
+            _ => state.end_skips(None),
+        }
         match self.shape.region(end.saturating_sub(1)) {
             // What stands before the subroutines goes on at the main part.
             None if end < self.shape.main => self.reach(self.shape.main, &state),
@@ -143,18 +164,23 @@ impl<'b> Flow<'b> {
         &mut self,
         block: &Block,
         at: usize,
-        state: State,
+        mut state: State,
         codes: Option<&Codes<'_, '_>>,
     ) -> Option<State> {
-        let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
-        let before = skipped.then(|| state.clone());
+        end_skips(&mut state, block);
+        if !block.items.iter().any(says_something) {
+            return Some(state);
+        }
+        let level = skip_level(block);
+        let on = match state.skipping.take() {
+            Some((_, on)) => Some(on),
+            None => level.map(|_| Box::new(state.clone())),
+        };
         let behind = self.items(&block.items, at, state, 0, codes);
-        match (before, behind) {
-            (Some(mut before), Some(behind)) => {
-                before.join(&behind);
-                Some(before)
-            }
-            (before, behind) => behind.or(before),
+        match (level.zip(on), behind) {
+            (Some(skipping), Some(behind)) => Some(State { skipping: Some(skipping), ..behind }),
+            (Some((_, on)), None) => Some(*on),
+            (None, behind) => behind,
         }
     }
 

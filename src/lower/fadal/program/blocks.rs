@@ -6,7 +6,7 @@ use crate::ir::{Cond, Program, SourceInfo, StmtKind, TermKind};
 use crate::lower::common::{ProgramText, says_something, site_of};
 use crate::lower::fadal::build::Lowering;
 use crate::lower::fadal::codes::{Codes, steps};
-use crate::lower::fadal::flow::{Flow, Others, Shape};
+use crate::lower::fadal::flow::{Flow, Others, Shape, end_skips};
 use crate::lower::fadal::words::name_planes;
 use crate::syntax::{Block, Item, ItemKind, Label, for_each_item};
 
@@ -26,6 +26,7 @@ pub fn lower(
         if let Some(state) = flow.at(at) {
             lowering.state = state;
         }
+        end_skips(&mut lowering.state, block);
         let codes = Codes::new(&block.items, control);
         lowering.block(at, block, &codes, &mut head);
         let state = std::mem::take(&mut lowering.state);
