@@ -63,6 +63,8 @@ pub enum Feature {
     Truth,
     /// A branch on more than one comparison, or on none of one.
     Compound,
+    /// A block skip.
+    Skip,
 }
 
 /// The features of programs: which operations, words and things stand in them.
@@ -128,7 +130,12 @@ impl Features {
 
     fn program(&mut self, program: &Program) {
         for block in &program.blocks {
-            block.stmts.iter().for_each(|stmt| self.stmt(&stmt.kind));
+            for stmt in &block.stmts {
+                self.stmt(&stmt.kind);
+                if stmt.site.skip.is_some() {
+                    self.add(Feature::Skip);
+                }
+            }
             self.term(&block.term.kind);
         }
     }
@@ -194,6 +201,7 @@ impl Features {
             TermKind::Branch { cond, .. } if matches!(**cond, Cond::And(_) | Cond::Or(_) | Cond::Not(_)) => {
                 self.add(Feature::Compound);
             }
+            TermKind::Branch { cond, .. } if matches!(**cond, Cond::Switch(_)) => self.add(Feature::Skip),
             TermKind::Jump(_) => return,
             _ => {}
         }

@@ -108,13 +108,14 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
         return found;
     }
     let facts = context.modal_facts(module);
-    let (after, started) = (After::of(module, &facts), started(module, context));
     let holds = context.features.op(Op::SpindleOrient);
     let lost = lost::lost(module, context.source);
     let passes = |control: &Control| {
         control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
     };
     let passes = passes(context.target) && !passes(context.source);
+    let after = After::of(module, &facts, [context.source, context.target]);
+    let started = started(module, context);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| asks(index, block)) {
             let mut place = Place {

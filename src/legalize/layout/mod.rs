@@ -10,4 +10,5 @@ pub(in crate::legalize) mod macro_lines;
 pub(in crate::legalize) mod program_numbers;
 pub(in crate::legalize) mod scratch;
 pub(in crate::legalize) mod sequence_numbers;
+pub(in crate::legalize) mod skip_runs;
 pub(in crate::legalize) mod text_ends;

@@ -9,7 +9,7 @@ use crate::legalize::expressions::{
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::contours;
-use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
+use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers, skip_runs};
 use crate::legalize::moves::start;
 use crate::legalize::offsets::still_blocks;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
@@ -163,6 +163,10 @@ pub(super) const OPERATOR: &[Pass] = &[
 ];
 
 pub(super) const LAYOUT: &[Pass] = &[
+    Pass::each("skips-apart", "each block of a way round blocks gets its block skip again", skip_runs::apart)
+        .when(|c, _| c.has(Feature::Skip))
+        .needs(&["skip-runs"])
+        .changes_flow(),
     Pass::rewrites(
         "sequence-numbers",
         "sequence numbers stand at the head of what became of their blocks",

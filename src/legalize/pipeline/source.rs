@@ -9,18 +9,28 @@ use crate::legalize::cycles::{
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::other_kind;
+use crate::legalize::layout::skip_runs;
 use crate::legalize::moves::{bare_feeds, first_increments};
 use crate::legalize::offsets::{arc_starts, missing_length};
 use crate::legalize::variables::last_words;
 
 /// Before what is read is folded away.
-pub(super) const READ: &[Pass] = &[Pass::edits(
-    "last-words",
-    "numbers of tool offsets and codes that are read become constants or registers",
-    last_words::run,
-)
-.when(last_words::concerns)
-.changes_flow()];
+pub(super) const READ: &[Pass] = &[
+    Pass::each(
+        "skip-runs",
+        "blocks with a block skip that follow each other become one way round them",
+        skip_runs::together,
+    )
+    .when(|c, _| c.has(Feature::Skip))
+    .changes_flow(),
+    Pass::edits(
+        "last-words",
+        "numbers of tool offsets and codes that are read become constants or registers",
+        last_words::run,
+    )
+    .when(last_words::concerns)
+    .changes_flow(),
+];
 
 pub(super) const SOURCE: &[Pass] = &[
     Pass::reports(

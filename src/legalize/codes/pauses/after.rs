@@ -1,6 +1,7 @@
 //! Whether a program cuts after a place before it says itself what runs.
 
-use crate::canon::{Group, Op, Role, Running};
+use crate::canon::{Group, Op, Pause, Role, Running};
+use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Call, Callee, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::{Modal, ModalFacts};
 use crate::syntax::ProgramName;
@@ -35,6 +36,8 @@ pub(super) struct After<'m> {
     /// programs are asked for.
     programs: Vec<OnceCell<Vec<Steps>>>,
     by_name: HashMap<&'m ProgramName, usize>,
+    /// For each of [`Running`], true if a tool change ends it on both controls: what ran before shows no more after one.
+    changes_end: [bool; 2],
 }
 
 /// The steps of a block's statements, and how it ends.
@@ -53,11 +56,18 @@ enum End {
 }
 
 impl<'m> After<'m> {
-    pub fn of(module: &'m Module, facts: &'m ModalFacts) -> Self {
+    pub fn of(module: &'m Module, facts: &'m ModalFacts, controls: [&Control; 2]) -> Self {
         let names = module.programs.iter().enumerate();
         let by_name = names.filter_map(|(index, program)| Some((program.name.as_ref()?, index))).collect();
         let programs = std::iter::repeat_with(OnceCell::new).take(module.programs.len()).collect();
-        Self { module, facts, programs, by_name }
+        let ends = |control: &Control, running| {
+            let ends = control.ends(Pause::Change, running);
+            // A change to the tool that is in the spindle may be passed over.
+            let always = control.behaviour(Question::ToolWordAgain).is_none_or(|row| row.value != "skipped");
+            ends.known && ends.answer == Some(true) && always
+        };
+        let changes_end = Running::ALL.map(|running| controls.iter().all(|control| ends(control, running)));
+        Self { module, facts, programs, by_name, changes_end }
     }
 
     fn block(&self, index: usize, id: BlockId) -> Option<&Steps> {
@@ -70,7 +80,7 @@ impl<'m> After<'m> {
             let mut state = self.facts.at(index, id);
             let steps = block.stmts.iter().map(|stmt| {
                 state.step(stmt);
-                let steps = steps(&stmt.kind, &state);
+                let steps = steps(&stmt.kind, &state, self.changes_end);
                 match stmt.site.skip {
                     // It may be passed over: what it says does not count, what it moves does.
                     Some(_) => steps.map(|step| step.filter(|step| !step.says())),
@@ -165,10 +175,11 @@ impl<'m> After<'m> {
 }
 
 /// What a statement does about spindle and coolant.
-fn steps(kind: &StmtKind, state: &Modal) -> [Option<Step>; 2] {
+fn steps(kind: &StmtKind, state: &Modal, changes_end: [bool; 2]) -> [Option<Step>; 2] {
     match kind {
         StmtKind::Nc(nc) => Running::ALL.map(|running| {
-            let says = nc.ops().any(|op| says(op, running));
+            let changes = changes_end[running as usize] && nc.has(Op::ToolChange);
+            let says = changes || nc.ops().any(|op| says(op, running));
             match (says, nc.moves() || nc.names_axis() || nc.has(Op::Dwell)) {
                 (true, moves) => Some(if moves { Step::SaysBeside } else { Step::Says }),
                 (false, _) if may_cut(nc, state) => Some(Step::Cuts),

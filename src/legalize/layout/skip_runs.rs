@@ -1,0 +1,261 @@
+//! Runs of blocks with a block skip, as one way round them.
+//!
+//! Law: blocks of one level that follow each other are run or passed over as a whole, since nobody turns the switch between them. So
+//! they become a branch on the switch round plain blocks, in which what one of them sets is known in the next; at the end each of
+//! them gets its `/` again. Side conditions: nothing comes into the run but at its head, and nothing leaves it but by calls that come
+//! back. Where a pass put another way into the run, it stays a branch. Counter-example: a label in the run that a jump goes to.
+
+use crate::ir::{BlockId, Callee, Cond, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator};
+use crate::legalize::Context;
+use crate::legalize::features::Feature;
+use crate::legalize::rewrite::{Part, rebuild};
+use crate::syntax::Label;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A place in a program: a block, and a statement of it; past the last one stands its end.
+type Place = (usize, usize);
+
+/// By block, where control comes from.
+struct Ways {
+    from: Vec<Vec<usize>>,
+    entered: BTreeSet<usize>,
+}
+
+impl Ways {
+    /// Of a program; `by_number` where something may return to any of its sequence numbers.
+    fn of(program: &Program, by_number: bool) -> Self {
+        let mut ways = Self { from: vec![Vec::new(); program.blocks.len()], entered: BTreeSet::from([0]) };
+        for (at, block) in program.blocks.iter().enumerate() {
+            for to in block.term.kind.successors() {
+                ways.from.get_mut(to.index()).into_iter().for_each(|from| from.push(at));
+            }
+            let called = crate::legalize::calls_of(block).filter_map(|call| match call.callee {
+                Callee::Block(entry) => Some(entry.index()),
+                _ => None,
+            });
+            ways.entered.extend(called);
+            if by_number && block.labels.iter().any(|label| matches!(label, Label::Number(_))) {
+                ways.entered.insert(at);
+            }
+        }
+        ways
+    }
+
+    fn is_only_from(&self, block: usize, from: &[usize]) -> bool {
+        let mut found = self.from.get(block).cloned().unwrap_or_default();
+        found.sort_unstable();
+        !self.entered.contains(&block) && found == from
+    }
+}
+
+/// A run of blocks with a block skip.
+struct Run {
+    level: u8,
+    /// Where it ends: its last block stands before.
+    end: Place,
+    /// The blocks whose ends go round one call of the run.
+    rounds: Vec<usize>,
+    blocks: usize,
+}
+
+/// The switch that a block's end goes by, and where it goes while that is on, and off.
+fn switch(term: &Terminator) -> Option<(u8, BlockId, BlockId)> {
+    match &term.kind {
+        TermKind::Branch { cond, then, otherwise } => match **cond {
+            Cond::Switch(level) => Some((level, *then, *otherwise)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Where control goes on after a block that nothing but a call leaves.
+fn goes_on(term: &TermKind) -> Option<usize> {
+    match term {
+        TermKind::Jump(to) | TermKind::Call { next: to, .. } => Some(to.index()),
+        _ => None,
+    }
+}
+
+/// The blocks from `first` on, each of which only the one before leads to, up to the one that goes on at `join`.
+fn chain(program: &Program, ways: &Ways, from: usize, first: usize, join: usize) -> Option<Vec<usize>> {
+    let (mut before, mut at, mut found) = (from, first, Vec::new());
+    loop {
+        let block = program.blocks.get(at)?;
+        if at != before + 1 || !ways.is_only_from(at, &[before]) {
+            return None;
+        }
+        found.push(at);
+        let next = goes_on(&block.term.kind)?;
+        if next == join {
+            return Some(found);
+        }
+        (before, at) = (at, next);
+    }
+}
+
+/// The run that begins at a place, if it has more than one block.
+fn run_at(program: &Program, ways: &Ways, (mut at, mut number): Place) -> Option<Run> {
+    let first = program.blocks.get(at)?;
+    let level = match first.stmts.get(number) {
+        Some(stmt) => stmt.site.skip.filter(|_| stmt.kind != StmtKind::Comment)?,
+        None => switch(&first.term)?.0,
+    };
+    let mut run = Run { level, end: (at, number), rounds: Vec::new(), blocks: 0 };
+    while let Some(block) = program.blocks.get(at) {
+        let goes = |stmt: &&Stmt| stmt.site.skip == Some(level) || stmt.kind == StmtKind::Comment;
+        for (number, _) in block.stmts.iter().enumerate().skip(number).take_while(|(_, stmt)| goes(stmt)) {
+            if block.stmts[number].kind != StmtKind::Comment {
+                (run.blocks, run.end) = (run.blocks + 1, (at, number + 1));
+            }
+        }
+        if block.stmts.iter().skip(number).any(|stmt| !goes(&stmt)) {
+            break;
+        }
+        number = 0;
+        match (switch(&block.term), &block.term.kind) {
+            (Some((other, on, off)), _) if other == level => {
+                let body = chain(program, ways, at, off.index(), on.index());
+                let Some(last) = body.and_then(|body| body.last().copied()) else { break };
+                if on.index() != last + 1 || !ways.is_only_from(on.index(), &[at, last]) {
+                    break;
+                }
+                run.rounds.push(at);
+                (run.blocks, run.end, at) = (run.blocks + 1, (on.index(), 0), on.index());
+            }
+            (None, TermKind::Jump(to)) if to.index() == at + 1 && ways.is_only_from(at + 1, &[at]) => at += 1,
+            _ => break,
+        }
+    }
+    (run.blocks > 1).then_some(run)
+}
+
+/// The runs of a program, by where they begin.
+fn runs(program: &Program, ways: &Ways) -> BTreeMap<Place, Run> {
+    let mut found = BTreeMap::new();
+    let mut free = (0, 0);
+    for (at, block) in program.blocks.iter().enumerate() {
+        for number in 0..=block.stmts.len() {
+            if (at, number) >= free
+                && let Some(run) = run_at(program, ways, (at, number))
+            {
+                free = run.end;
+                found.insert((at, number), run);
+            }
+        }
+    }
+    found
+}
+
+/// Makes runs of blocks with a block skip branches; true where there was one.
+pub fn together(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
+    let ways = Ways::of(program, context.features.has(Feature::ReturnTo));
+    let runs = runs(program, &ways);
+    if runs.is_empty() {
+        return false;
+    }
+    let ends: BTreeSet<Place> = runs.values().map(|run| run.end).collect();
+    let rounds: BTreeSet<usize> = runs.values().flat_map(|run| run.rounds.iter().copied()).collect();
+    let mut open: Option<(u8, BlockId)> = None;
+    let mut place: Place = (0, 0);
+    rebuild(program, &mut |builder, part| {
+        if let Part::Start(id) = part {
+            place = (id.index(), 0);
+            return;
+        }
+        if ends.contains(&place)
+            && let Some((_, end)) = open.take()
+        {
+            builder.start(end);
+        }
+        if let Some(run) = runs.get(&place) {
+            let (body, end) = (builder.fresh(), builder.fresh());
+            let cond = Box::new(Cond::Switch(run.level));
+            builder.end(TermKind::Branch { cond, then: end, otherwise: body }, SourceInfo::default());
+            builder.start(body);
+            open = Some((run.level, end));
+        }
+        match part {
+            Part::Stmt(mut stmt) => {
+                place.1 += 1;
+                if open.is_some() && stmt.kind != StmtKind::Comment {
+                    stmt.site.skip = None;
+                }
+                builder.push(stmt.kind, stmt.site);
+            }
+            Part::Term(term) => match switch(&term) {
+                Some((_, _, off)) if open.is_some() && rounds.contains(&place.0) => {
+                    builder.end(TermKind::Jump(off), term.site);
+                }
+                _ => builder.end(term.kind, term.site),
+            },
+            Part::Start(_) => {}
+        }
+    });
+    true
+}
+
+/// Gives each block of such a branch its block skip again; true where there was one.
+pub fn apart(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
+    let ways = Ways::of(program, context.features.has(Feature::ReturnTo));
+    let mut levels: BTreeMap<usize, u8> = BTreeMap::new();
+    let mut heads: BTreeSet<usize> = BTreeSet::new();
+    for (at, block) in program.blocks.iter().enumerate() {
+        let Some((level, on, off)) = switch(&block.term) else { continue };
+        let Some(body) = chain(program, &ways, at, off.index(), on.index()) else { continue };
+        let is_plain = |at: &usize| {
+            let goes = |stmt: &Stmt| stmt.site.skip.is_none() || stmt.kind == StmtKind::Comment;
+            program.blocks[*at].stmts.iter().all(goes)
+        };
+        // One call alone is gone round as it is.
+        let says = body.iter().any(|at| !program.blocks[*at].stmts.is_empty());
+        if says && body.iter().all(is_plain) {
+            heads.insert(at);
+            levels.extend(body.into_iter().map(|at| (at, level)));
+        }
+    }
+    if heads.is_empty() {
+        return false;
+    }
+    let calls: BTreeMap<usize, BlockId> = levels
+        .keys()
+        .filter_map(|at| match (&program.blocks[*at].term.kind, program.blocks[*at].stmts.is_empty()) {
+            (TermKind::Call { next, .. }, true) => Some((*at, *next)),
+            _ => None,
+        })
+        .collect();
+    let mut at = 0;
+    rebuild(program, &mut |builder, part| match part {
+        Part::Start(id) => at = id.index(),
+        Part::Stmt(mut stmt) => {
+            if let Some(level) = levels.get(&at).filter(|_| stmt.kind != StmtKind::Comment) {
+                stmt.site.skip = Some(*level);
+            }
+            builder.push(stmt.kind, stmt.site);
+        }
+        Part::Term(term) => {
+            let round = |level: u8, then: BlockId, otherwise: BlockId| TermKind::Branch {
+                cond: Box::new(Cond::Switch(level)),
+                then,
+                otherwise,
+            };
+            // A call alone is gone round by the end of the block before it.
+            let round_next = goes_on(&term.kind).and_then(|next| Some((next, *calls.get(&next)?)));
+            match (switch(&term), levels.get(&at).copied(), round_next, term.kind) {
+                (Some((level, _, off)), _, _, _) if heads.contains(&at) => match calls.get(&off.index()) {
+                    Some(after) => builder.end(round(level, *after, off), term.site),
+                    None => builder.end(TermKind::Jump(off), SourceInfo::default()),
+                },
+                (_, Some(level), Some((to, after)), TermKind::Jump(_)) => {
+                    builder.end(round(level, after, BlockId(to as u32)), term.site);
+                }
+                (_, Some(level), _, TermKind::Call { call, next }) if !calls.contains_key(&at) => {
+                    builder.end_then(SourceInfo::default(), |body| round(level, next, body));
+                    builder.end(TermKind::Call { call, next }, term.site);
+                }
+                (_, _, _, kind) => builder.end(kind, term.site),
+            }
+        }
+    });
+    true
+}
