@@ -52,6 +52,7 @@ fn run<'r>(
         modal: Vec::new(),
         in_modal: false,
         line: String::new(),
+        line_ends_in_value: false,
         printed: None,
         waited: false,
         moving: false,
@@ -108,6 +109,8 @@ struct Interpreter<'r, 'f> {
     in_modal: bool,
     /// What PRINT left on the line of the screen.
     line: String,
+    /// True where a value is the last that was put on it.
+    line_ends_in_value: bool,
     /// The last line of it if it may ask for a value at a stop, until words are read.
     printed: Option<String>,
     /// True after a block that waits for the moves, until the next block that is no PRINT.

@@ -17,6 +17,12 @@ impl Interpreter<'_, '_> {
         let waited = std::mem::take(&mut self.waited);
         let asks = waited && !stay && self.line.is_empty() && matches!(parts, [PrintPart::Text(_)]);
         for part in parts {
+            let is_value = matches!(part, PrintPart::Value(_));
+            // How a value is set off from the one before it is not stated. Run together, two would read as one number.
+            if is_value && self.line_ends_in_value {
+                self.line.push(' ');
+            }
+            self.line_ends_in_value = is_value;
             match part {
                 PrintPart::Text(span) => {
                     let source = self.session.source(self.at.section);
@@ -45,6 +51,7 @@ impl Interpreter<'_, '_> {
 
     fn put_out(&mut self, asks: bool) {
         let text = std::mem::take(&mut self.line);
+        self.line_ends_in_value = false;
         if asks && self.session.scenario.sets_named {
             self.printed = Some(text.clone());
         }

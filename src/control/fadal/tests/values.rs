@@ -118,6 +118,9 @@ fn lines_of_output() {
     assert_eq!(printed("#PRINT V10", &parts), ["36920"]);
     assert_eq!(printed(r##"#PRINT "THIS IS PART NUMBER ",V10"##, &parts), ["THIS IS PART NUMBER 36920"]);
     assert_eq!(printed("#PRINT \"A\",\n#PRINT \"B\"\n#PRINT \"C\",", &[]), ["AB", "C"]);
+    // Two values are two numbers, on one line or by two commands.
+    assert_eq!(printed(r##"#PRINT "H",V4,V10,"!""##, &parts), ["H98645 36920!"]);
+    assert_eq!(printed("#PRINT V4,\n#PRINT V10", &parts), ["98645 36920"]);
 }
 
 #[test]

@@ -42,8 +42,6 @@ pub fn inputs_of_both(
     found.skips.extend(other.skips);
     found.asks |= other.asks;
     found.turns_by_sign |= other.turns_by_sign;
-    found.second_home = target.control.second_home();
-    found.peck_clearance = [source, target].into_iter().find_map(|side| side.control.peck_clearance());
     for (own, others) in found.rotary.iter_mut().zip(other.rotary) {
         *own |= others;
     }

@@ -18,11 +18,15 @@ pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs 
 }
 
 /// Where the target selects no unit, both machines are set to the one that the source selects: the target checks it. Where
-/// only the target has stops with messages, a text before a stop of the source is one there.
+/// only the target has stops with messages, a text before a stop of the source is one there. What the profiles say of the
+/// machines is so in all runs, those of edited texts too.
 pub fn set_for(found: Inputs, source: &Side<'_>, target: &Side<'_>) -> Inputs {
     let inch = found.inch.or(found.selected.filter(|_| !target.selects_unit()));
     let sets_named = lacks_messages(source.control) && !lacks_messages(target.control);
-    Inputs { inch, sets_named, unworn: found.unworn && !keeps_wear(target.control), ..found }
+    let unworn = found.unworn && !keeps_wear(target.control);
+    let second_home = target.control.second_home();
+    let peck_clearance = [source, target].into_iter().find_map(|side| side.control.peck_clearance());
+    Inputs { inch, sets_named, unworn, second_home, peck_clearance, ..found }
 }
 
 /// True where a control keeps the wear of a tool's radius in a place of its own.
