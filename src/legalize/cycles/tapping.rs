@@ -6,18 +6,21 @@
 //! A later hole that changes one of the two gets the feed of both, where its block follows the cycle's own.
 //! The feed that was in force is said again where the cycle ends, for the source's tap leaves it alone. Where it is not a known
 //! number, the target reads it before the tap and says that, if it can and every way to the end of the cycle came by the
-//! reading; else that is a review diagnostic.
+//! reading; else what cuts by it is a review diagnostic. A feed that is left at the end of a run is told once for a library.
 
 mod kept;
+mod touched;
 
 use super::rigid_taps::told_before;
 use super::tap_leads::by_lead;
+use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
-use kept::{Does, Kept};
+use crate::text::Span;
+use kept::{Does, Ends, Kept};
 
 const ONLY: &str = "a tapping cycle by its lead, without a speed in its block, or not in feed per minute";
 
@@ -25,7 +28,11 @@ const UNDER: &str = "a speed or a lead under a tapping cycle that an earlier blo
 
 const IN_MINUTES: &str = "the cycle's feed is its speed times its lead, in feed per minute: write G94 before it, if that is in force here";
 
-const STAYS: &str = "the feed of the tapping cycle stays in force after it: write the feed again there";
+const STAYS: &str =
+    "the feed of a tapping cycle before this may still be in force here: write the feed again";
+
+const LEFT: &str = "the feed of a tapping cycle is left in force at the end of the run, on the source the one from before it: the next \
+     program must write F before it cuts";
 
 /// Gives tapping cycles a feed for their lead.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -79,13 +86,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 }
                 match (does, register) {
                     (Does::Reads, Some(register)) => read(&mut block.stmts, Kept::reading(register, &stmt)),
-                    (Does::Fails, _) => context.add(index, Diagnostic::new(Code::Conditional, span, STAYS)),
+                    (Does::Fails, _) => context.add(index, of_tap_feed(span, STAYS)),
                     _ => {}
                 }
                 block.stmts.push(stmt);
             }
+            let span = block.term.site.span;
+            match kept.ends(index, id, &block.term.kind, in_force) {
+                Some(Ends::Run) => context.add_once(index, LEFT, of_tap_feed(span, LEFT).asked_once()),
+                Some(Ends::Unknown) => context.add(index, of_tap_feed(span, STAYS)),
+                None => {}
+            }
         }
     }
+}
+
+/// A finding about the feed that a tap leaves. What differs by it at the end of a run is told so, and not again.
+fn of_tap_feed(span: Span, what: &'static str) -> Diagnostic {
+    Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Substitute(Op::CycleTapByLead))
 }
 
 /// The speed and the lead of a tap that follows no code of its own to be rigid, as its block tells both.

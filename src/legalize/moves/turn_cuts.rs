@@ -273,13 +273,13 @@ fn is_plain(stmt: &Stmt, state: &Modal, speed: Speed, fed: Fed, vacant: bool) ->
 }
 
 /// True where a block may cut at the feed in force.
-fn cuts(nc: &Nc, state: &Modal) -> bool {
+pub(in crate::legalize) fn cuts(nc: &Nc, state: &Modal) -> bool {
     let rapid = state.op(Group::Motion) == Some(Op::Rapid) && state.op(Group::Cycle) == Some(Op::CycleOff);
     nc.ops().any(Op::is_cycle) || goes(nc) && !rapid && !nc.ops().any(needs_no_feed)
 }
 
 /// True for what tells the feed in force, or its mode.
-fn reads_feed(e: &Expr) -> bool {
+pub(in crate::legalize) fn reads_feed(e: &Expr) -> bool {
     let mut reads = false;
     e.walk(&mut |e: &Expr| {
         reads |= match e {

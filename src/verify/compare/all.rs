@@ -111,7 +111,7 @@ pub fn differences<'r>(
     }
     let end = end_differs(&source.1.end, &target.1.end);
     let variables = all_variables(source, target, names).into_iter().map(|found| found.what);
-    let left = left_differs(source, target, tolerance, &mut BTreeSet::new());
+    let left = left_differs(source, target, tolerance, &mut BTreeSet::new(), &mut BTreeSet::new());
     // All of it is said of the end.
     let all = end.into_iter().chain(variables).chain(left);
     let at_end = all.map(|what| match what.split_once(" at the end, ") {

@@ -17,12 +17,14 @@ use crate::dialect::Question;
 use crate::verify::sides::Side;
 use std::collections::BTreeSet;
 
-/// What two programs leave otherwise; what only a next program could tell goes to `substituted`.
+/// What two programs leave otherwise; what only a next program could tell goes to `substituted`, a feed that a tap may have left to
+/// `replaced`.
 pub fn left_differs(
     (source, run): (&Side<'_>, &Run),
     (target, other): (&Side<'_>, &Run),
     tolerance: Tolerance,
     substituted: &mut BTreeSet<String>,
+    replaced: &mut BTreeSet<(Op, String)>,
 ) -> Option<String> {
     let (ours, theirs) = (run.left.as_ref()?, other.left.as_ref()?);
     let seen = seen_differs(ours, theirs, tolerance);
@@ -36,14 +38,26 @@ pub fn left_differs(
     }
     let mut scratch = BTreeSet::new();
     // No program is read as one that begins in a drilling cycle: a target that ends it leaves nothing out.
-    let theirs = &without_end_of_cycle(ours, theirs);
-    if let Some(what) = state_differs((source, ours), (target, theirs), tolerance, &mut scratch) {
-        let text = format!(
-            "the exit state differs: it ends {what}; no source says whether the next program inherits it"
-        );
-        substituted.insert(text);
-    }
+    let mut theirs = without_end_of_cycle(ours, theirs);
+    let text = |what| {
+        format!("the exit state differs: it ends {what}; no source says whether the next program inherits it")
+    };
+    let feed = feed_differs(ours, &theirs).filter(|_| !has_no_such_feed(ours, target));
+    replaced.extend(feed.map(|what| (Op::CycleTapByLead, text(what))));
+    theirs.feed = ours.feed;
+    substituted.extend(state_differs((source, ours), (target, &theirs), tolerance, &mut scratch).map(text));
     None
+}
+
+/// A target without feeds per turn has none to compare: the conversion reports a return with one in force.
+fn has_no_such_feed(ours: &ExitState, target: &Side<'_>) -> bool {
+    ours.feed_by_turn && lacks(target, Op::FeedPerTurn)
+}
+
+/// Two feeds that differ, where the source has one.
+fn feed_differs(ours: &ExitState, theirs: &ExitState) -> Option<String> {
+    let differs = ours.feed != 0.0 && (ours.feed - theirs.feed).abs() > 1e-4 * ours.feed.abs();
+    differs.then(|| format!("with a feed of {}, the target with {}", ours.feed, theirs.feed))
 }
 
 /// What the target leaves, where it ended the drilling cycle that the source leaves in force.
@@ -148,16 +162,14 @@ fn state_differs(
             return Some(format!("in {op}, the target in {there}"));
         }
     }
-    // A target without feeds per turn has none to compare: the conversion reports a return with one in force.
-    let by_turn = ours.feed_by_turn && lacks(target, Op::FeedPerTurn);
     // What a tap by its lead leaves is known only where a feed was in force before.
-    if by_turn {
+    if has_no_such_feed(ours, target) {
         // Nothing to compare.
     } else if ours.feed == 0.0 && theirs.feed != 0.0 {
         let text = "the target returns with a feed of its own, the source with its caller's feed";
         substituted.insert(text.into());
-    } else if (ours.feed - theirs.feed).abs() > 1e-4 * ours.feed.abs() {
-        return Some(format!("with a feed of {}, the target with {}", ours.feed, theirs.feed));
+    } else if let Some(what) = feed_differs(ours, theirs) {
+        return Some(what);
     }
     let allowed = tolerance.between(ours.rounded, theirs.rounded).min(tolerance.rounded);
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;

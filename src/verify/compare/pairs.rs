@@ -53,7 +53,7 @@ pub fn compare<'r>(
     if found.difference.is_some() || cut || found.stopped {
         return found;
     }
-    let left = left_differs(source, target, tolerance, &mut found.substituted);
+    let left = left_differs(source, target, tolerance, &mut found.substituted, &mut found.replaced);
     let seen = |what| Difference::new(None, None, what);
     let end = end_differs(&source.1.end, &target.1.end).map(seen);
     let variable = end.or_else(|| variables_differ(source, target, names));

@@ -1,28 +1,57 @@
 //! The feed from before a tap: where the target's own tap feed stands in its place, and what brings it back.
+//!
+//! It matters only where something cuts by it, or reads it, before a block says a feed. There it is said again, or that place is
+//! reported. The holes under the tap are no such place, in whatever program their positions stand.
 
+use super::touched::{Touched, keeps_cycle, roots};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::Control;
-use crate::ir::analysis::Cfg;
-use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, States, solve};
+use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::modal::Modal;
+use crate::ir::analysis::over_calls::{Follow, OverCalls, called};
 use crate::ir::{
-    Block, BlockId, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
+    Block, BlockId, Call, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
 use crate::legalize::ModalFacts;
+use crate::legalize::moves::turn_cuts::{cuts, reads_feed};
 use crate::legalize::rewrite::highest_temp;
+use std::collections::BTreeSet;
 
 /// F by the place of its letter.
 const ADDRESS_F: u32 = 6;
 
-/// The feed in force on the target.
+/// The feed in force on the target; `tapping` where that of a tap is in force only while a tap is, whose holes have their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feed {
     /// That of the source.
     Same,
     /// A register holds that of the source; in force is that of a tap, or the same.
-    Held,
+    Held { tapping: bool },
     /// That of a tap may be in force, and nothing holds that of the source.
-    Lost,
+    Lost { tapping: bool },
+}
+
+impl Feed {
+    fn is_tapping(self) -> bool {
+        match self {
+            Self::Same => true,
+            Self::Held { tapping } | Self::Lost { tapping } => tapping,
+        }
+    }
+
+    /// What another program, or another level of this one, knows of it.
+    fn elsewhere(self) -> Self {
+        match self {
+            Self::Held { tapping } => Self::Lost { tapping },
+            feed => feed,
+        }
+    }
+
+    fn set_tapping(&mut self, now: bool) {
+        if let Self::Held { tapping } | Self::Lost { tapping } = self {
+            *tapping = now;
+        }
+    }
 }
 
 /// What must be done at a statement.
@@ -39,12 +68,27 @@ pub enum Does {
     Fails,
 }
 
+/// How a block ends with another feed than that of the source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ends {
+    /// The run ends.
+    Run,
+    /// What goes on is not known.
+    Unknown,
+}
+
 /// The feed at the start of every block of a library.
 pub struct Kept {
     readable: bool,
-    /// True where a program may call another or return in the middle of a tap.
+    /// True where what nobody knows may run in the middle of a tap, or with its feed.
     open: bool,
-    entries: Vec<States<Feed>>,
+    /// By program: whether it returns, and whether others call it by its name.
+    returns: Vec<bool>,
+    called: Vec<bool>,
+    /// Blocks that calls enter.
+    roots: BTreeSet<(usize, BlockId)>,
+    touched: Touched,
+    known: Option<OverCalls<Feed>>,
     /// What holds the feed, in those programs that need it.
     registers: Vec<Option<Var>>,
 }
@@ -52,12 +96,21 @@ pub struct Kept {
 impl Kept {
     /// Follows the feed through a library.
     pub fn of(module: &Module, facts: &ModalFacts, target: &Control) -> Self {
-        let readable = target.system_address(Sys::Address, &[ADDRESS_F]).is_some();
-        let mut kept = Self { readable, open: false, entries: Vec::new(), registers: Vec::new() };
-        // Programs find and leave the feed as it was, unless one calls or returns in the middle of a tap.
-        if kept.flow(module, facts, Feed::Same) {
+        let mut kept = Self {
+            readable: target.system_address(Sys::Address, &[ADDRESS_F]).is_some(),
+            open: false,
+            returns: module.programs.iter().map(Program::returns).collect(),
+            called: called(module),
+            roots: roots(module),
+            touched: Touched::of(module),
+            known: None,
+            registers: Vec::new(),
+        };
+        // What nobody knows finds the feed as it was, unless it runs in the middle of a tap.
+        kept.known = Some(OverCalls::of(module, &Follows { kept: &kept, facts }));
+        if kept.is_open(module, facts) {
             kept.open = true;
-            kept.flow(module, facts, Feed::Lost);
+            kept.known = Some(OverCalls::of(module, &Follows { kept: &kept, facts }));
         }
         for (index, program) in module.programs.iter().enumerate() {
             let asks = program.ids().any(|id| {
@@ -71,25 +124,39 @@ impl Kept {
         kept
     }
 
-    /// Follows the feed where programs begin, and go on after calls, in this state. True where one calls or returns
-    /// in another.
-    fn flow(&mut self, module: &Module, facts: &ModalFacts, begins: Feed) -> bool {
-        let mut open = false;
-        let mut entries = Vec::with_capacity(module.programs.len());
-        for (index, program) in module.programs.iter().enumerate() {
-            let (rules, cfg) = (Follows { kept: &*self, facts, index, begins }, Cfg::of(program));
-            let starts = solve(&rules, program, &cfg);
-            open |= program.ids().any(|id| rules.is_open(program, &cfg, id, &starts));
-            entries.push(starts);
-        }
-        self.entries = entries;
-        open
+    /// True where something that nobody knows runs with another feed than that of the source.
+    fn is_open(&self, module: &Module, facts: &ModalFacts) -> bool {
+        module.programs.iter().enumerate().any(|(index, program)| {
+            program.ids().zip(&program.blocks).any(|(id, block)| {
+                if !self.is_reached(index, id) {
+                    return false;
+                }
+                let (mut modal, mut feed) = (facts.at(index, id), self.at(index, id));
+                let calls = block.stmts.iter().any(|stmt| {
+                    self.step(stmt, &mut modal, &mut feed);
+                    feed != Feed::Same && calls_by_moving(stmt, &modal)
+                });
+                calls || feed != Feed::Same && self.touched.is_unknown(&block.term.kind)
+            })
+        })
     }
 
-    /// The feed at the start of a block.
+    fn is_reached(&self, program: usize, id: BlockId) -> bool {
+        self.known.as_ref().is_some_and(|known| known.at(program, id).is_some())
+    }
+
+    /// The feed at the start of a block; that of the source where no run comes.
     pub fn at(&self, program: usize, id: BlockId) -> Feed {
-        let entry = self.entries.get(program).and_then(|all| all.at(id));
-        entry.copied().unwrap_or(Feed::Lost)
+        let known = self.known.as_ref().and_then(|known| known.at(program, id).copied());
+        self.entered(program, id, known.unwrap_or(Feed::Same))
+    }
+
+    /// The same where a block may be entered by calls: a register is of one level of one program.
+    fn entered(&self, program: usize, id: BlockId, feed: Feed) -> Feed {
+        if self.open && id == BlockId(0) && self.returns.get(program) == Some(&true) {
+            return Feed::Lost { tapping: false };
+        }
+        if self.roots.contains(&(program, id)) { feed.elsewhere() } else { feed }
     }
 
     /// What holds the feed in a program.
@@ -108,87 +175,123 @@ impl Kept {
     pub fn step(&self, stmt: &Stmt, modal: &mut Modal, feed: &mut Feed) -> Does {
         let (was, known) = (modal.op(Group::Cycle), modal.feed());
         modal.step(stmt);
-        let StmtKind::Nc(nc) = &stmt.kind else { return Does::Nothing };
+        let reads = *feed != Feed::Same && says(|f| stmt.kind.exprs(f));
+        let StmtKind::Nc(nc) = &stmt.kind else {
+            return if reads { fail(feed) } else { Does::Nothing };
+        };
         let skipped = stmt.site.skip.is_some();
+        let now = modal.op(Group::Cycle);
+        let tapping = now.map_or(keeps_cycle(nc) && was.is_none() && feed.is_tapping(), Op::is_tap);
         // What was read counts something else in another unit or feed mode.
         let other = nc.ops().any(|op| matches!(op.group(), Group::Units | Group::FeedMode));
         let mut does = Does::Nothing;
         if nc.ops().any(Op::is_tap) {
             if *feed == Feed::Same && nc.word(Role::Lead).is_some() {
-                (*feed, does) =
-                    if self.readable { (Feed::Held, Does::Reads) } else { (Feed::Lost, Does::Nothing) };
+                (*feed, does) = match self.readable {
+                    true => (Feed::Held { tapping }, Does::Reads),
+                    false => (Feed::Lost { tapping }, Does::Nothing),
+                };
             }
         } else if nc.word(Role::Feed).is_some() {
-            *feed = if skipped && *feed != Feed::Same { Feed::Lost } else { Feed::Same };
-        } else if *feed != Feed::Same
-            && was.is_none_or(Op::is_tap)
-            && modal.op(Group::Cycle).is_some_and(|op| !op.is_tap())
-        {
-            does = match (known, *feed) {
-                (Some(feed), _) => Does::Says(feed),
-                (None, Feed::Held) if !other => Does::SaysHeld,
-                _ => Does::Fails,
+            *feed = match *feed {
+                Feed::Same => Feed::Same,
+                _ if skipped => Feed::Lost { tapping },
+                _ => Feed::Same,
             };
-            if does != Does::Fails && !skipped {
+        } else if *feed != Feed::Same {
+            let ends = was.is_none_or(Op::is_tap) && now.is_some_and(|op| !op.is_tap());
+            let needed = !tapping && cuts(nc, modal);
+            does = match (known, *feed) {
+                _ if !ends && !needed => Does::Nothing,
+                (Some(feed), _) => Does::Says(feed),
+                (None, Feed::Held { .. }) if !other => Does::SaysHeld,
+                _ if needed => Does::Fails,
+                _ => Does::Nothing,
+            };
+            // Who reads that it is missing writes it.
+            if does != Does::Nothing && !skipped {
                 *feed = Feed::Same;
             }
         }
-        if (other && *feed == Feed::Held) || self.open && calls_by_moving(stmt, modal) {
-            *feed = Feed::Lost;
+        if reads {
+            does = fail(feed);
+        }
+        feed.set_tapping(tapping);
+        if matches!(feed, Feed::Held { .. }) && other || self.open && calls_by_moving(stmt, modal) {
+            *feed = Feed::Lost { tapping: tapping && !self.open };
         }
         does
     }
+
+    /// How a block ends, where that leaves another feed than that of the source.
+    pub fn ends(&self, program: usize, id: BlockId, term: &TermKind, feed: Feed) -> Option<Ends> {
+        if feed == Feed::Same || !self.is_reached(program, id) {
+            return None;
+        }
+        match term {
+            TermKind::End { .. } | TermKind::Stray => Some(Ends::Run),
+            TermKind::Return { .. } => (self.called.get(program) != Some(&true)).then_some(Ends::Unknown),
+            term if self.touched.is_unknown(term) || says(|f| term.exprs(f)) => Some(Ends::Unknown),
+            _ => None,
+        }
+    }
+}
+
+/// A place where the feed is missing: who reads that writes it.
+fn fail(feed: &mut Feed) -> Does {
+    *feed = Feed::Same;
+    Does::Fails
+}
+
+/// True where an expression reads the feed.
+fn says(exprs: impl FnOnce(&mut dyn FnMut(&Expr))) -> bool {
+    let mut reads = false;
+    exprs(&mut |e| reads |= reads_feed(e));
+    reads
 }
 
 impl Lattice for Feed {
     fn join(&mut self, other: &Self) -> bool {
-        let joined = if self == other { *self } else { Feed::Lost };
+        let tapping = self.is_tapping() && other.is_tapping();
+        let joined = match (*self, *other) {
+            (Self::Same, Self::Same) => Self::Same,
+            (Self::Held { .. }, Self::Held { .. }) => Self::Held { tapping },
+            _ => Self::Lost { tapping },
+        };
         std::mem::replace(self, joined) != joined
     }
 }
 
-/// What the blocks of a program do to the feed; it begins, and goes on after calls, as `begins` says.
+/// What the blocks of a library do to the feed.
 struct Follows<'f> {
     kept: &'f Kept,
     facts: &'f ModalFacts,
-    index: usize,
-    begins: Feed,
 }
 
-impl Follows<'_> {
-    /// True where a block calls or returns with another feed than that of the source.
-    fn is_open(&self, program: &Program, cfg: &Cfg, id: BlockId, starts: &States<Feed>) -> bool {
-        let (Some(block), Some(feed)) = (program.block(id), starts.at(id)) else { return false };
-        let (mut feed, mut modal) = (*feed, self.facts.at(self.index, id));
-        let in_block = block.stmts.iter().any(|stmt| {
-            self.kept.step(stmt, &mut modal, &mut feed);
-            feed != Feed::Same && calls_by_moving(stmt, &modal)
-        });
-        let goes = match &block.term.kind {
-            TermKind::Call { .. } => true,
-            TermKind::End { .. } => false,
-            _ => cfg.succs(id).is_empty(),
-        };
-        in_block || feed != Feed::Same && goes
-    }
-}
+impl Follow for Follows<'_> {
+    type Known = Feed;
 
-impl Analysis for Follows<'_> {
-    type State = Feed;
-    const DIRECTION: Direction = Direction::Forward;
-
-    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Feed)> {
-        cfg.roots().iter().map(|root| (*root, self.begins)).collect()
+    fn outside(&self, _: usize) -> Feed {
+        Feed::Same
     }
 
-    fn block(&self, id: BlockId, block: &Block, feed: &mut Feed) {
-        let mut modal = self.facts.at(self.index, id);
+    fn stmts(&self, (index, id): (usize, BlockId), block: &Block, feed: &mut Feed) {
+        let mut modal = self.facts.at(index, id);
+        *feed = self.kept.entered(index, id, *feed);
         for stmt in &block.stmts {
             self.kept.step(stmt, &mut modal, feed);
         }
-        if self.begins == Feed::Lost && matches!(block.term.kind, TermKind::Call { .. }) {
-            *feed = Feed::Lost;
+    }
+
+    fn lose(&self, feed: &mut Feed) {
+        if *feed != Feed::Same || self.kept.open {
+            *feed = Feed::Lost { tapping: false };
         }
+    }
+
+    fn returned(&self, program: usize, call: &Call, before: &Feed, after: &mut Feed) {
+        // Where only positions stand, all stays as it was.
+        *after = if self.kept.touched.touches(program, call) { after.elsewhere() } else { *before };
     }
 }
 
