@@ -141,7 +141,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[400, 457, 53, 28], [621, 165, 69, 33], [283, 24, 96, 57], [251, 10, 60, 41]]);
+    assert_eq!(counts, [[400, 457, 53, 28], [621, 165, 69, 33], [283, 24, 100, 57], [251, 10, 60, 41]]);
 }
 
 fn control(name: &str) -> Control {
@@ -488,6 +488,10 @@ fn haas_tables_are_those_of_the_class() {
         ("G154 P1", Op::SelectWork),
         ("M16", Op::ToolChange),
         ("M28", Op::Builder),
+        ("M10", Op::FourthBrakeOn),
+        ("M11", Op::FourthBrakeOff),
+        ("M12", Op::FifthBrakeOn),
+        ("M13", Op::FifthBrakeOff),
         ("M88", Op::ThroughSpindle),
         ("M96 P10 Q8", Op::JumpInputOff),
         ("M97 P100", Op::CallLocal),
@@ -572,6 +576,10 @@ fn fadal_tables_are_those_of_the_manual() {
         ("M17", Op::SubEnd),
         ("M30", Op::SubAreaEnd),
         ("M45", Op::CycleHere),
+        ("M60", Op::FourthBrakeOn),
+        ("M61", Op::FourthBrakeOff),
+        ("M62", Op::FifthBrakeOn),
+        ("M63", Op::FifthBrakeOff),
         ("M64", Op::ProbeOn),
         ("M65", Op::ToolProbeOn),
     ] {

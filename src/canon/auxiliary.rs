@@ -40,6 +40,7 @@ impl Op {
             SpindleCcw | Mist | Flood | ThroughSpindle => Auxiliary::Start,
             SpindleStop | SpindleOrient | CoolantOff | ThroughSpindleOff => Auxiliary::Stop,
             OverrideOn | OverrideOff | ProbeOn | ToolProbeOn | OutputOn | OutputOff | Act => Auxiliary::Other,
+            FourthBrakeOn | FourthBrakeOff | FifthBrakeOn | FifthBrakeOff => Auxiliary::Other,
             _ => return None,
         })
     }

@@ -331,6 +331,14 @@ super::vocabulary! {
         ProbeOn = "probe.on",
         /// Tool probe on.
         ToolProbeOn = "probe.tool.on",
+        /// Brake of the fourth axis on: it holds the axis.
+        FourthBrakeOn = "brake.fourth.on",
+        /// Brake of the fourth axis off: the axis may turn.
+        FourthBrakeOff = "brake.fourth.off",
+        /// Brake of the fifth axis on.
+        FifthBrakeOn = "brake.fifth.on",
+        /// Brake of the fifth axis off.
+        FifthBrakeOff = "brake.fifth.off",
         /// Switches the output of role `output.bit` on.
         OutputOn = "output.on",
         /// Switches the output of role `output.bit` off.
