@@ -154,7 +154,8 @@ fn goes_alike(nc: &Nc, from: &Places, context: &Context<'_>) -> bool {
         |(axis, word)| {
             let Some(angle) = degrees(word, context.source) else { return false };
             let within_half = |parts: i64| parts >= 0 && 2 * parts < TURN;
-            match from.of(axis).turns(way, angle) {
+            let stands = from.of(axis);
+            match stands.turns(way, angle).filter(|_| !stands.loose) {
                 _ if !any => (0.0..180.0).contains(&angle),
                 Some(turns) => turns.iter().all(|(from, by)| *by >= 0 && within_half(from + by)),
                 None => false,

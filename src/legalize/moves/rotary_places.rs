@@ -8,9 +8,10 @@ use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls, called};
-use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Place, Program, Stmt, StmtKind};
+use crate::ir::analysis::{calls_of, reachable};
+use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Place, Program, Stmt, StmtKind};
 use crate::legalize::{Modal, ModalFacts};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The rotary axes.
 pub(in crate::legalize) const AXES: [Role; 3] = [Role::A, Role::B, Role::C];
@@ -69,20 +70,37 @@ pub(in crate::legalize) fn parts(degrees: f64) -> i64 {
 pub(in crate::legalize) struct Stands {
     /// The angles that it may have; none where that is not known.
     pub at: Option<BTreeSet<i64>>,
+    /// True where these are places within one turn, and how many whole turns it made is not known.
+    pub loose: bool,
     /// True where that rests on where the axis stands when a program begins, or on work offsets that are alike.
     pub assumed: bool,
 }
 
 impl Stands {
     fn at(angle: i64, assumed: bool) -> Self {
-        Self { at: Some(BTreeSet::from([angle])), assumed }
+        Self { at: Some(BTreeSet::from([angle])), loose: false, assumed }
     }
 
-    const UNKNOWN: Self = Self { at: None, assumed: false };
+    const UNKNOWN: Self = Self { at: None, loose: false, assumed: false };
 
     /// Where a word takes it: from each angle by how far.
     pub(in crate::legalize) fn turns(&self, way: Way, word: f64) -> Option<Vec<(i64, i64)>> {
-        self.at.as_ref()?.iter().map(|from| Some((*from, way.turn(*from, word)?))).collect()
+        self.at
+            .as_ref()
+            .filter(|_| !self.loose || way != Way::Turns)?
+            .iter()
+            .map(|from| Some((*from, way.turn(*from, word)?)))
+            .collect()
+    }
+
+    /// The same, with few angles: of many only the places within one turn are kept, and of many of these none.
+    fn few(self) -> Self {
+        let within =
+            |at: BTreeSet<i64>| at.into_iter().map(|at| at.rem_euclid(TURN)).collect::<BTreeSet<_>>();
+        let loose = self.loose || self.at.as_ref().is_some_and(|at| at.len() > MOST);
+        let at = if loose { self.at.map(within) } else { self.at };
+        let at = at.filter(|at| at.len() <= MOST);
+        Self { loose: loose && at.is_some(), at, assumed: self.assumed }
     }
 }
 
@@ -95,13 +113,12 @@ impl Lattice for Places {
         let mut changed = false;
         for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
             let before = mine.clone();
-            mine.assumed |= theirs.assumed;
-            mine.at = match (mine.at.take(), &theirs.at) {
-                (Some(mine), Some(theirs)) => {
-                    Some(mine.union(theirs).copied().collect::<BTreeSet<_>>()).filter(|all| all.len() <= MOST)
-                }
+            let at = match (mine.at.take(), &theirs.at) {
+                (Some(mine), Some(theirs)) => Some(mine.union(theirs).copied().collect()),
                 _ => None,
             };
+            let (loose, assumed) = (mine.loose || theirs.loose, mine.assumed || theirs.assumed);
+            *mine = Stands { at, loose, assumed }.few();
             changed |= *mine != before;
         }
         changed
@@ -163,19 +180,18 @@ impl Places {
                 (Some(value), Some(true)) => {
                     let by = parts(value);
                     let at = mine.at.take().map(|at| at.iter().map(|at| at.saturating_add(by)).collect());
-                    Stands { at, assumed: mine.assumed }
+                    Stands { at, loose: mine.loose, assumed: mine.assumed }.few()
                 }
                 (Some(value), Some(false)) => {
                     let at = mine.turns(way, value);
                     let at = at.map(|all| all.iter().map(|(from, by)| from + by).collect());
                     // A place that is named is known, wherever the axis came from.
-                    let named = || BTreeSet::from([parts(value.abs())]);
-                    let at = if way == Way::Turns {
-                        Some(BTreeSet::from([parts(value)]))
-                    } else {
-                        at.or(Some(named()))
-                    };
-                    Stands { at, assumed: false }
+                    let named = || Stands { loose: true, ..Stands::at(parts(value.abs()), false) };
+                    match at {
+                        _ if way == Way::Turns => Stands::at(parts(value), false),
+                        Some(at) => Stands { at: Some(at), loose: mine.loose, assumed: false }.few(),
+                        None => named().few(),
+                    }
                 }
                 _ => Stands::UNKNOWN,
             };
@@ -223,7 +239,8 @@ impl RotaryPlaces {
         let alone: Vec<bool> = (module.programs.iter().zip(called).enumerate())
             .map(|(index, (program, called))| called && names_angle(program, &|id| facts.at(index, id)))
             .collect();
-        let rules = Rules { facts, control, way: Way::of(control), alone: &alone };
+        let quiet = quiet(module, facts);
+        let rules = Rules { module, facts, control, way: Way::of(control), alone: &alone, quiet };
         Self { known: OverCalls::of(module, &rules), alone }
     }
 
@@ -252,10 +269,70 @@ fn is_angle(item: &NcItem) -> bool {
 }
 
 struct Rules<'r> {
+    module: &'r Module,
     facts: &'r ModalFacts,
     control: &'r Control,
     way: Way,
     alone: &'r [bool],
+    quiet: BTreeSet<(usize, BlockId)>,
+}
+
+/// The routines that leave the axes, and what their angles count from, as they are: by program, and the block that is entered.
+fn quiet(module: &Module, facts: &ModalFacts) -> BTreeSet<(usize, BlockId)> {
+    let mut all = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for call in program.blocks.iter().flat_map(calls_of) {
+            let Some(entry) = entered(module, index, call) else { continue };
+            all.entry(entry).or_insert_with(|| reachable(&module.programs[entry.0], entry.1));
+        }
+    }
+    let mut quiet: BTreeSet<(usize, BlockId)> = all.keys().copied().collect();
+    loop {
+        let before = quiet.len();
+        let keeps = |entry: &(usize, BlockId)| {
+            let Some(program) = module.programs.get(entry.0) else { return false };
+            all.get(entry).into_iter().flatten().all(|id| {
+                let Some(block) = program.block(*id) else { return false };
+                let own = !facts.at(entry.0, *id).may_call() && block.stmts.iter().all(leaves_axes);
+                let mut calls = calls_of(block).map(|call| entered(module, entry.0, call));
+                own && calls.all(|callee| callee.is_some_and(|callee| quiet.contains(&callee)))
+            })
+        };
+        let kept: BTreeSet<_> = quiet.iter().filter(|entry| keeps(entry)).copied().collect();
+        quiet = kept;
+        if quiet.len() == before {
+            return quiet;
+        }
+    }
+}
+
+/// Where a call goes; none if that is not known.
+fn entered(module: &Module, program: usize, call: &Call) -> Option<(usize, BlockId)> {
+    match &call.callee {
+        Callee::Block(entry) => Some((program, *entry)),
+        Callee::Program(name) => {
+            let named = |program: &Program| program.name.as_ref() == Some(name);
+            Some((module.programs.iter().position(named)?, BlockId(0)))
+        }
+        Callee::Computed(_) | Callee::Cycle(_) => None,
+    }
+}
+
+/// True for a statement that turns no axis, and sets nothing that angles count from.
+fn leaves_axes(stmt: &Stmt) -> bool {
+    match &stmt.kind {
+        StmtKind::Nc(nc) => nc.items.iter().all(|item| match item {
+            NcItem::Word(role, _) => !AXES.contains(role),
+            NcItem::Op(op) => {
+                !op.is_return()
+                    && !op.takes_axes()
+                    && !matches!(op, Op::Home | Op::SelectWork | Op::ShiftCancel | Op::MachineOnce)
+            }
+            NcItem::Code(..) => false,
+        }),
+        StmtKind::Assign { target: Place::Var(_), .. } | StmtKind::Comment => true,
+        _ => false,
+    }
 }
 
 impl Follow for Rules<'_> {
@@ -279,5 +356,11 @@ impl Follow for Rules<'_> {
 
     fn lose(&self, known: &mut Places) {
         known.forget();
+    }
+
+    fn returned(&self, program: usize, call: &Call, before: &Places, after: &mut Places) {
+        if entered(self.module, program, call).is_some_and(|entry| self.quiet.contains(&entry)) {
+            after.clone_from(before);
+        }
     }
 }

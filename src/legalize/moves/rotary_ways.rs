@@ -3,18 +3,20 @@
 //! Law: an axis turns by as much as it turned by, and the same way. On a control of signs an absolute word is a place within one
 //! turn, and its sign the way there; elsewhere it is what the axis has turned by, or the shorter way is taken. Side conditions:
 //! where the axis stands before is known from the text, and the angle is a number; less than a whole turn; less than half of one
-//! where the shorter way is taken. What is in increments stays. Counter-example: `A360.` after `A0.`, a whole turn, which no place
-//! with a sign says.
+//! where the shorter way is taken. What is in increments stays. Where how many whole turns were made before is not known, but how
+//! far it turns is, the target turns by that in increments, if the block moves nothing else. Counter-example: `A360.` after `A0.`,
+//! a whole turn, which no place with a sign says.
 
 use super::rotary_places::{AXES, Places, RotaryPlaces, Stands, TURN, Way, degrees, is_aside, parts};
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
-use crate::legalize::Context;
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::assumptions::shop::are_mills;
 use crate::legalize::features::Features;
+use crate::legalize::{Context, Modal};
 use crate::text::Span;
+use std::collections::BTreeMap;
 
 /// True between two mills of which one alone goes by the sign, if rotary axes move.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -33,22 +35,72 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let (mut state, mut here) = (facts.at(index, id), places.at(index, id));
-            for stmt in &mut block.stmts {
+            let stmts = Stmts::with_capacity(block.stmts.len());
+            for mut stmt in std::mem::replace(&mut block.stmts, stmts) {
                 let (before, from) = (state.clone(), here.clone());
-                state.step(stmt);
-                here.step(stmt, (&before, &state), ways.0, source);
+                state.step(&stmt);
+                here.step(&stmt, (&before, &state), ways.0, source);
                 let span = stmt.site.span;
-                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-                match state.op(Group::Distance) {
-                    Some(Op::Incremental) => {}
-                    Some(_) => changed |= angles(nc, &from, ways, (index, span), context),
-                    None if moves_axis(nc) => refuse(MODE, MODE_HELP, (index, span), context),
-                    None => {}
+                let aside = is_alone(&stmt, &state, context).then(|| back(span));
+                let mut after = None;
+                if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    match state.op(Group::Distance) {
+                        Some(Op::Incremental) => {}
+                        Some(_) => {
+                            let done = angles(nc, &from, ways, ((index, span), aside.is_some()), context);
+                            changed |= done != Done::Nothing;
+                            after = aside.filter(|_| done == Done::Turns);
+                        }
+                        None if moves_axis(nc) => refuse(MODE, MODE_HELP, (index, span), context),
+                        None => {}
+                    }
                 }
+                block.stmts.push(stmt);
+                block.stmts.extend(after);
             }
         }
     }
     changed
+}
+
+/// What was done to a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Done {
+    Nothing,
+    /// An angle is another.
+    Angle,
+    /// It turns in increments.
+    Turns,
+}
+
+/// True for a block that turns one axis and does nothing else.
+fn is_alone(stmt: &Stmt, state: &Modal, context: &Context<'_>) -> bool {
+    let Some(nc) = stmt.kind.nc() else { return false };
+    let mut axes = 0;
+    let plain = nc.items.iter().all(|item| match item {
+        NcItem::Op(op) => matches!(op, Op::Rapid | Op::Linear),
+        NcItem::Word(role, _) => {
+            axes += usize::from(AXES.contains(role));
+            AXES.contains(role) || *role == Role::Feed
+        }
+        NcItem::Code(..) => false,
+    });
+    let straight = matches!(state.op(Group::Motion), Some(Op::Rapid | Op::Linear));
+    let has = |op| context.target.code_for(op, &BTreeMap::new()).is_some();
+    plain
+        && axes == 1
+        && straight
+        && state.op(Group::Cycle) == Some(Op::CycleOff)
+        && !state.may_call()
+        && stmt.site.skip.is_none()
+        && has(Op::Incremental)
+        && has(Op::Absolute)
+}
+
+/// The block after one in increments.
+fn back(span: Span) -> Stmt {
+    let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Absolute)] });
+    Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } }
 }
 
 fn moves_axis(nc: &Nc) -> bool {
@@ -60,16 +112,16 @@ fn angles(
     nc: &mut Nc,
     from: &Places,
     (ours, theirs): (Way, Way),
-    place: (usize, Span),
+    (place, alone): ((usize, Span), bool),
     context: &mut Context<'_>,
-) -> bool {
+) -> Done {
     if nc.has(Op::MachineOnce) && moves_axis(nc) {
         refuse(MACHINE, MACHINE_HELP, place, context);
     }
     if is_aside(nc) {
-        return false;
+        return Done::Nothing;
     }
-    let mut changed = false;
+    let mut done = Done::Nothing;
     for item in &mut nc.items {
         let NcItem::Word(role, value) = item else { continue };
         let Some(axis) = AXES.iter().position(|axis| axis == role) else { continue };
@@ -78,20 +130,37 @@ fn angles(
             continue;
         };
         let stands = from.of(axis);
-        match written(stands, angle, ours, theirs) {
-            Ok(written) => {
-                if stands.assumed {
-                    rests(place, context);
-                }
-                if written.to_bits() != angle.to_bits() {
-                    *value = Expr::Number(written);
-                    changed = true;
-                }
+        let written = match (written(stands, angle, ours, theirs), turned(stands, angle, ours)) {
+            (Err((UNKNOWN | TURNED, _)), Some(by)) if alone && theirs == Way::Turns => {
+                done = Done::Turns;
+                by
             }
-            Err((what, help)) => refuse(what, help, place, context),
+            (Ok(written), _) => written,
+            (Err((what, help)), _) => {
+                refuse(what, help, place, context);
+                continue;
+            }
+        };
+        if stands.assumed {
+            rests(place, context);
+        }
+        if written.to_bits() != angle.to_bits() {
+            *value = Expr::Number(written);
+            done = if done == Done::Turns { done } else { Done::Angle };
         }
     }
-    changed
+    if done == Done::Turns {
+        nc.items.insert(0, NcItem::Op(Op::Incremental));
+    }
+    done
+}
+
+/// How far an axis turns, where that is the same from wherever it may stand.
+fn turned(stands: &Stands, angle: f64, way: Way) -> Option<f64> {
+    let turns = stands.turns(way, angle)?;
+    let mut by = turns.iter().map(|(_, by)| *by);
+    let first = by.next()?;
+    by.all(|by| by == first).then_some(first as f64 / 1e6)
 }
 
 /// The word by which an axis on the target turns as it does on the source.
@@ -113,7 +182,7 @@ fn written(stands: &Stands, angle: f64, ours: Way, theirs: Way) -> Result<f64, (
         Way::Shortest if by.any(|by| 2 * by.abs() >= TURN) => Err((HALF, HELP)),
         Way::Shortest => Ok(angle_of(ours, angle)),
         Way::Turns => {
-            let first = to.next().ok_or((UNKNOWN, HELP))?;
+            let first = to.next().filter(|_| !stands.loose).ok_or((TURNED, HELP))?;
             if to.all(|to| to == first) { Ok(first as f64 / 1e6) } else { Err((TURNED, HELP)) }
         }
     }
