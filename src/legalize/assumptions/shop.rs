@@ -69,7 +69,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         return;
     }
     let (source, way) = (context.source, Way::of(context.source));
-    let places = RotaryPlaces::of(module, &facts, source);
+    let places = RotaryPlaces::of(module, &facts, source, &context.origins);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             let (mut state, mut here): (Modal, Places) = (facts.at(index, id), places.at(index, id));

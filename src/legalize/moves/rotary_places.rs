@@ -233,11 +233,19 @@ pub(in crate::legalize) struct RotaryPlaces {
 }
 
 impl RotaryPlaces {
-    /// Those of a library; `facts` says what is in force.
-    pub(in crate::legalize) fn of(module: &Module, facts: &ModalFacts, control: &Control) -> Self {
+    /// Those of a library; `facts` says what is in force, `origins` which program of the source each is made of.
+    pub(in crate::legalize) fn of(
+        module: &Module,
+        facts: &ModalFacts,
+        control: &Control,
+        origins: &[usize],
+    ) -> Self {
         let called = called(module);
+        // A subroutine that stands in a program's text is never run by itself: it comes after that program here.
+        let is_part = |index: usize| index > 0 && origins.get(index - 1) == origins.get(index);
+        let named = |index, program| names_angle(program, &|id| facts.at(index, id));
         let alone: Vec<bool> = (module.programs.iter().zip(called).enumerate())
-            .map(|(index, (program, called))| called && names_angle(program, &|id| facts.at(index, id)))
+            .map(|(index, (program, called))| called && !is_part(index) && named(index, program))
             .collect();
         let quiet = quiet(module, facts);
         let rules = Rules { module, facts, control, way: Way::of(control), alone: &alone, quiet };

@@ -28,7 +28,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
     let source = context.source;
-    let places = RotaryPlaces::of(module, &facts, source);
+    let places = RotaryPlaces::of(module, &facts, source, &context.origins);
     let ways = (Way::of(source), Way::of(context.target));
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
