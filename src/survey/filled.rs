@@ -79,10 +79,10 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     }
     let point = survey.with_questions(|questions| point(questions, control));
     let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
-    let rotary = if side == Side::Source { survey.rotary.as_slice() } else { &[] };
+    let further = if side == Side::Source { survey.further_axes.as_slice() } else { &[] };
     let unit =
         unit.first().map_or(String::new(), |unit| format!(" ({})", counted(unit.programs, &unit.places)));
-    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), (&unit, rotary));
+    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), (&unit, further));
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     text = match side {
@@ -266,7 +266,7 @@ fn with_machine(
     text: &str,
     said: &Profile,
     (lathe, point): (Option<String>, Option<String>),
-    (unit, rotary): (&str, &[char]),
+    (unit, further): (&str, &[char]),
 ) -> String {
     let kind = lathe.as_deref().unwrap_or("machine = \"mill\" or \"lathe\"");
     let axes = match said.machine {
@@ -274,7 +274,7 @@ fn with_machine(
         _ => "axes = [\"X\", \"Y\", \"Z\"] # in the order of the control's axis numbers",
     };
     // Those that programs move are there.
-    let more: String = rotary.iter().map(|letter| format!(", \"{letter}\"")).collect();
+    let more: String = further.iter().map(|letter| format!(", \"{letter}\"")).collect();
     let axes = axes.replacen(']', &format!("{more}]"), 1);
     let Ok(profile) = Profile::read(text) else { return text.to_owned() };
     let units =

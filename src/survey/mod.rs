@@ -72,8 +72,8 @@ pub struct Survey<'a> {
     pub signals: Vec<AskedSignal>,
     /// Variables that programs use and the table of their control has not.
     pub variables: Vec<AskedVariables>,
-    /// The letters of the rotary axes that its programs move.
-    rotary: Vec<char>,
+    /// The letters of the axes that its programs move and that not every such machine has.
+    further_axes: Vec<char>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
@@ -127,7 +127,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         start.extend(start.is_empty().then(|| no_length([source, target])).flatten());
         start_of_target.extend(start_of_target.is_empty().then(|| no_length([target, source])).flatten());
     }
-    let rotary = variables::rotary(source, &library.module);
+    let further_axes = variables::further_axes(source, &library.module);
     let digits =
         target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
     let mut conversion = match target {
@@ -170,7 +170,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         there,
         signals,
         variables,
-        rotary,
+        further_axes,
         rest: conversion,
         then: Vec::new(),
         now,

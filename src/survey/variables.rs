@@ -4,10 +4,10 @@
 use super::Survey;
 use super::filled::{ASKS, TELLS, after_dialect, spliced};
 use super::shape::{NAMED, Places};
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::diag::Asks;
-use crate::dialect::{Control, Profile};
-use crate::ir::{Module, Nc};
+use crate::dialect::{Control, Machine, Profile};
+use crate::ir::Module;
 use crate::library::ProgramReport;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -90,13 +90,21 @@ pub(super) fn asked(
     runs.into_iter().map(|(run, programs)| AskedVariables { programs: programs.len(), ..run }).collect()
 }
 
-/// The letters of the rotary axes that programs move.
-pub(super) fn rotary(source: &Control, module: &Module) -> Vec<char> {
+/// The letters of the axes that programs move and that not every machine of the kind has: those that turn, and Y of a lathe.
+pub(super) fn further_axes(source: &Control, module: &Module) -> Vec<char> {
     let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
-    let moved: Vec<&Nc> = stmts.filter_map(|stmt| stmt.kind.nc()).collect();
-    let roles = [Role::A, Role::B, Role::C].into_iter();
-    let moved = roles.filter(|role| moved.iter().any(|nc| nc.word(*role).is_some()));
-    moved.filter_map(|role| source.letter(role, None).map(|(letter, _)| letter)).collect()
+    let mut roles = [(Role::Y, false), (Role::A, false), (Role::B, false), (Role::C, false)];
+    let mut on_face = false;
+    for nc in stmts.filter_map(|stmt| stmt.kind.nc()) {
+        // In the plane of a face Y is a length that C makes.
+        on_face = nc.has(Op::PolarPlane) || on_face && !nc.has(Op::PolarPlaneOff);
+        for (role, moved) in &mut roles {
+            let counts = *role != Role::Y || source.machine() == Machine::Lathe && !on_face;
+            *moved |= counts && nc.word(*role).is_some();
+        }
+    }
+    let moved = roles.into_iter().filter(|(_, moved)| *moved);
+    moved.filter_map(|(role, _)| source.letter(role, None).map(|(letter, _)| letter)).collect()
 }
 
 /// All variables of the machine with those that are asked: what `variables` of its profile would be.

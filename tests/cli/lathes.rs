@@ -115,6 +115,24 @@ fn a_survey_says_it_and_asks() {
     assert!(!shop.read("m.toml").contains("#? gcode_system"), "{}", shop.read("m.toml"));
 }
 
+/// Y that a lathe's programs move is an axis of it, and C; on a face Y is what C makes.
+#[test]
+fn a_survey_names_the_axes_that_programs_move() {
+    let milled = "O5\nT0101\nG0 X50. Z5. C0.\nG112\nG17\nG1 X20. Y5. F100.\nY0.\nG113\nG18\nM30\n";
+    let shop = Shop::with(&[("lib/face.nc", milled)]);
+    let run = shop.run("survey lib --from haas --to fanuc --write m.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(shop.read("m.toml").contains("#? axes = [\"X\", \"Z\", \"C\"] # in"), "{}", shop.read("m.toml"));
+    let shop = Shop::with(&[("lib/flat.nc", "O6\nT0101\nG53 Y0.\nG0 X50. Z5. C0.\nG1 Y3. F50.\nM30\n")]);
+    let run = shop.run("survey lib --from haas --to fanuc --write m.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(
+        shop.read("m.toml").contains("#? axes = [\"X\", \"Z\", \"Y\", \"C\"] # in"),
+        "{}",
+        shop.read("m.toml")
+    );
+}
+
 /// The seminar's lathe programs, on the machines that ship: M910 calls O9020, and #5002 is Z.
 #[test]
 fn the_profiles_that_ship_are_lathes() {
