@@ -87,6 +87,7 @@ fn act(machine: &mut Machine, command: &Command, late: bool, trace: &mut Trace) 
         }
         match kind {
             Auxiliary::Change => tooling::change(machine, trace),
+            Auxiliary::Speed if readies(machine, command) => {}
             Auxiliary::Speed => turn(machine, command, machine.spindle, trace),
             Auxiliary::Other => others(machine, command, trace),
             Auxiliary::Forward | Auxiliary::Start | Auxiliary::Stop => {
@@ -149,6 +150,12 @@ pub(super) fn builders(machine: &mut Machine, command: &Command, act: Act, trace
 /// True for the operations that only the code tells apart.
 pub(super) fn is_own(op: Op) -> bool {
     matches!(op, Op::Builder | Op::MachineSpecific)
+}
+
+/// True where the code for rigid taps of a lathe says the speed again that is in force while the spindle stands (Q12).
+fn readies(machine: &Machine, command: &Command) -> bool {
+    let same = command.word(Role::Speed) == Some(machine.speed) && !machine.surface_speed;
+    command.has(Op::RigidTaps) && machine.rules.lathe && same && machine.spindle == Spindle::Stopped
 }
 
 /// Turns the spindle, at the speed of the block where it has one.
