@@ -79,12 +79,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     }
                     arc(nc, index, span, context);
                     if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
-                        && turned_by_cycle(nc, spindle.stands, state)
+                        && turned_by_cycle(nc, spindle.stands && !spindle.otherwise, state)
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
-                        spindle.stands = false;
+                        spindle = Spindle { stands: false, otherwise: true, ..spindle };
                     } else if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
-                        && (taps_unseen(nc, state) || turned_by_cycle(nc, spindle.lost, state))
+                        && (taps_unseen(nc, state)
+                            || turned_by_cycle(nc, spindle.stands || spindle.lost, state))
                     {
                         context.add_once(
                             index,
@@ -178,13 +179,19 @@ const STANDS: &str = "the spindle stands here, and the source's cycle starts it 
 struct Spindle {
     /// A tool change, an orientation or a stop has ended its turning.
     stands: bool,
+    /// On another way nothing of that came last.
+    otherwise: bool,
     /// A program that is not in the library may have stopped it: one that probes does.
     lost: bool,
 }
 
 impl Lattice for Spindle {
     fn join(&mut self, other: &Self) -> bool {
-        let joined = Self { stands: self.stands || other.stands, lost: self.lost || other.lost };
+        let joined = Self {
+            stands: self.stands || other.stands,
+            otherwise: self.otherwise || other.otherwise,
+            lost: self.lost || other.lost,
+        };
         std::mem::replace(self, joined) != joined
     }
 }
@@ -201,7 +208,7 @@ impl Follow for Standing {
     type Known = Spindle;
 
     fn outside(&self, _: usize) -> Spindle {
-        Spindle::default()
+        Spindle { otherwise: true, ..Spindle::default() }
     }
 
     fn stmts(&self, _: (usize, BlockId), block: &Block, spindle: &mut Spindle) {
@@ -220,16 +227,21 @@ impl Standing {
     }
 
     /// Takes a statement, which may say what the spindle does.
-    fn after(&self, kind: &StmtKind, Spindle { stands, lost }: Spindle) -> Spindle {
+    fn after(&self, kind: &StmtKind, before: Spindle) -> Spindle {
+        let standing = Spindle { stands: true, otherwise: false, ..before };
         match kind {
             StmtKind::Nc(nc) => {
                 let says = nc.ops().any(|op| op.group() == Group::Spindle && op != Op::SpindleOrient);
                 let pauses = nc.has(Op::Stop) || nc.has(Op::OptionalStop);
                 let ends = nc.has(Op::ToolChange) || nc.has(Op::SpindleOrient) || self.by_stop && pauses;
-                Spindle { stands: (stands || ends) && !says, lost: lost && !says }
+                match (says, ends) {
+                    (true, _) => Spindle { otherwise: true, ..Spindle::default() },
+                    (_, true) => standing,
+                    _ => before,
+                }
             }
-            StmtKind::StopMessage { .. } => Spindle { stands: stands || self.by_message, lost },
-            _ => Spindle { stands, lost },
+            StmtKind::StopMessage { .. } if self.by_message => standing,
+            _ => before,
         }
     }
 }
