@@ -7,6 +7,7 @@
 //! place that is not known.
 
 mod known;
+mod rapids;
 mod words;
 
 use crate::canon::{Group, Op, Role};
@@ -42,9 +43,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         return false;
     }
     let (ours, theirs) = (by_c(context.source), by_c(context.target));
-    let Some((ours, _)) = ours.zip(theirs).filter(|(ours, theirs)| ours != theirs) else {
+    let Some((ours, theirs)) = ours.zip(theirs).filter(|(ours, theirs)| ours != theirs) else {
         return refused(module, context);
     };
+    if theirs && !context.features.op(Op::Incremental) {
+        rapids::move_out(module);
+    }
     let facts = context.modal_facts(module);
     let known = OverCalls::of(module, &Faces { by_c: ours });
     let called = called(module);
@@ -98,7 +102,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         }
     }
     for (index, span, what) in found {
-        context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(HELP));
+        context.add_once(
+            index,
+            what,
+            Diagnostic::new(Code::NoEquivalent, span, what).with_help(help_for(what)),
+        );
     }
     true
 }
@@ -113,6 +121,11 @@ fn refused(module: &Module, context: &mut Context<'_>) -> bool {
         }
     }
     false
+}
+
+/// What to do about it.
+fn help_for(what: &str) -> &'static str {
+    if what == RAPID { RAPID_HELP } else { HELP }
 }
 
 /// True for a block that begins or ends such milling.
@@ -201,7 +214,7 @@ impl Face {
             return Some(CALLS);
         }
         if moves && !arc && motion != Some(Op::Linear) || nc.has(Op::Rapid) {
-            return Some(RAPID);
+            return Some(if motion == Some(Op::Rapid) { RAPID } else { MOTION });
         }
         if moves && !self.known.absolute {
             return Some(STEPS);
@@ -249,12 +262,13 @@ const ENDS: &str = "the program ends in polar interpolation: what the target is 
 const CALLS: &str = "a program is called in polar interpolation that may do anything there";
 const READS: &str = "a place is read in polar interpolation: no source says in what it is read";
 const CODE: &str = "a code in polar interpolation of which no source says that it may stand there";
-const RAPID: &str =
-    "a rapid move in polar interpolation, or one of which it is not known: the controls differ";
+const RAPID: &str = "a rapid move in polar interpolation, which one of the two controls does not take there";
+const MOTION: &str = "a move in polar interpolation of which it is not known whether it is a rapid one, and one of the two controls takes none there";
 const STEPS: &str =
     "an increment in polar interpolation: no source says what it counts on one of the two controls";
 const PLANE: &str =
     "which plane is in force in polar interpolation is not known, and the target must be told";
 const AXIS: &str = "a word in polar interpolation that has no equal there on the target";
 const VACANT: &str = "X in polar interpolation is computed from a variable that may be vacant, and the target counts it otherwise";
+const RAPID_HELP: &str = "write G1 with a feed in its place, or end polar interpolation before it";
 const HELP: &str = "let the CAM system write this part for the target, or write it by hand";

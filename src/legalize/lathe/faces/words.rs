@@ -71,6 +71,11 @@ fn may_count(role: Role) -> bool {
     )
 }
 
+/// X of a control that counts radii as a diameter.
+pub fn doubled(value: &Expr) -> Expr {
+    scaled(value, false, false).unwrap_or_else(|| value.clone())
+}
+
 /// Half of X for the control that counts radii, twice for the other one; none where a vacant one would become a number.
 fn scaled(value: &Expr, by_c: bool, vacant: bool) -> Option<Expr> {
     let (op, factor) = if by_c { (BinOp::Div, 0.5) } else { (BinOp::Mul, 2.0) };
