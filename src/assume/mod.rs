@@ -79,6 +79,8 @@ pub enum Predicate {
     ArcEnds(Vec<Span>),
     /// The pecks that these blocks tell a drilling cycle are there, and not 0.
     Pecks(Vec<Span>),
+    /// The drilling cycles of these blocks begin at their retract plane or beyond it, along X (0) or Z (2).
+    Levels(Vec<Span>, usize),
     /// The tools that these blocks change to are whole numbers, and not 0.
     Tools(Vec<Span>),
     /// The target has no such operation: it does something near instead, or nothing, and a person accepts that.
@@ -97,6 +99,7 @@ impl Predicate {
             | Self::ShortArcs(places)
             | Self::ArcEnds(places)
             | Self::Pecks(places)
+            | Self::Levels(places, _)
             | Self::Tools(places) => Some(places),
             _ => None,
         }
@@ -120,6 +123,7 @@ impl Predicate {
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
             Self::Pecks(_) => "pecks",
+            Self::Levels(..) => "levels",
             Self::Tools(_) => "tools",
             Self::Substitute(_) => "substitute",
             Self::Unseen => "unseen",
@@ -168,7 +172,8 @@ impl Predicate {
             | Self::Loaded(_)
             | Self::Holds(..)
             | Self::Setting(..)
-            | Self::Pecks(_) => Vec::new(),
+            | Self::Pecks(_)
+            | Self::Levels(..) => Vec::new(),
             Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) | Self::Unseen => {
                 Vec::new()
             }

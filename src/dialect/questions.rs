@@ -279,6 +279,7 @@ questions! {
     CornerLetters "corner.letters" OneOf(&["axes", "letters"]), "how a corner without a comma is written: I, K and R, or C, R and A", if "said";
     AxesNumbered "axes.numbered" OneOf(&["profile", "unknown"]), "the order in which the axes after the first have the numbers of their variables: that of the axes in the profile", if "said";
     HoleSidePlane "hole.side.plane" OneOf(&["diameter", "unknown"]), "what the retract plane of a cycle that drills along X of a lathe is: a diameter, as X is", if "said";
+    HoleWaitBuilders "hole.wait.builders" OneOf(&["none", "unknown"]), "what P of a builder's code, as the speed of a live tool, is to a later hole of a lathe that has no P: no wait", if "said";
     LogicRank "logic.rank" OneOf(&["listed", "unknown"]), "the order of AND, OR, XOR and NOT without brackets: as the table ranks them", if "said";
     ModalGroups "modal.groups" OneOf(&["code", "unknown"]), "what a program reads of the modal groups other than motion: the code itself", if "said";
     OffsetNumbers "offset.numbers" OneOf(&["listed", "unknown"]), "the numbers of tool lengths and cutter radii in a memory of another make: as the table lists them", if "said";

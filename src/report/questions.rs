@@ -270,7 +270,12 @@ fn danger(finding: &Diagnostic) -> usize {
             Some(Predicate::Loaded(_) | Predicate::Holds(..) | Predicate::Tools(_) | Predicate::Setting(..)),
             _,
         ) => 1,
-        (Some(Predicate::ShortArcs(_) | Predicate::ArcEnds(_) | Predicate::Pecks(_)), _) => 2,
+        (
+            Some(
+                Predicate::ShortArcs(_) | Predicate::ArcEnds(_) | Predicate::Pecks(_) | Predicate::Levels(..),
+            ),
+            _,
+        ) => 2,
         (Some(Predicate::Codes { .. } | Predicate::Subscripts(_) | Predicate::Arguments { .. }), _) => 3,
         (Some(Predicate::Main | Predicate::Nesting { .. } | Predicate::Alarms(_)), _) => 4,
         (_, Code::NotDecided | Code::RoundingSensitive) => 5,

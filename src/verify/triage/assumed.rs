@@ -151,6 +151,7 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
             (off.abs() > OFF_ARC).then(|| format!("ends an arc {:.4} mm off it", off.abs()))
         }),
         Predicate::Pecks(places) => pecks(run, of, places),
+        Predicate::Levels(places, along) => levels(run, of, places, *along),
         Predicate::Tools(places) => tools(run, of, places),
     }
 }
@@ -170,6 +171,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::ShortArcs(_)
         | Predicate::ArcEnds(_)
         | Predicate::Pecks(_)
+        | Predicate::Levels(..)
         | Predicate::Tools(_)
         | Predicate::Substitute(_)
         | Predicate::Unseen
@@ -289,6 +291,30 @@ fn pecks(run: &Run, (side, program): (&Side<'_>, ProgramRef), places: &[Span]) -
             let other = run.events.iter().take(before).rposition(|event| event.at.span != block);
             let before = other.map_or(0, |last| last + 1);
             return Held::Broken { before, what: "drills pecks without a depth".into() };
+        }
+        held = Held::Kept;
+    }
+    held
+}
+
+/// Whether drilling cycles of some blocks begin at their plane or beyond it: the tool goes to the plane before it drills.
+fn levels(run: &Run, (side, program): (&Side<'_>, ProgramRef), places: &[Span], along: usize) -> Held {
+    let mut held = Held::Untried;
+    for (at, event) in run.events.iter().enumerate() {
+        let EventKind::Hole { at: plane, bottom, .. } = event.what else { continue };
+        let block = event.at.span;
+        let here = |place: &Span| block.start <= place.start && place.start < block.end.max(block.start + 1);
+        if !places.iter().any(here) || side.links().at(run, event.at.program) != Some(program) {
+            continue;
+        }
+        let first = run.events.iter().take(at).rposition(|event| event.at.span != block);
+        let before = first.map_or(0, |last| last + 1);
+        let goes = run.events.iter().take(at).skip(before).any(|event| {
+            let EventKind::Rapid { from, .. } = &event.what else { return false };
+            (from.0[along] - plane.0[along]) * (bottom - plane.0[along]) > 0.0
+        });
+        if goes {
+            return Held::Broken { before, what: "begins a drilling cycle below its retract plane".into() };
         }
         held = Held::Kept;
     }

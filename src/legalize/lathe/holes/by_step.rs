@@ -1,5 +1,6 @@
 //! Cycles for a target whose retract planes are ways from where the cycle began, with one code for all drilling along an axis.
 
+use super::levels::{lasts, way};
 use super::walk::{Hole, Refused};
 use crate::canon::{Op, Role};
 use crate::ir::{Expr, Nc, NcItem};
@@ -112,12 +113,22 @@ fn plane(hole: &mut Hole<'_>) -> Result<(), Refused> {
         return Ok(());
     };
     let (Some(initial), Some(place)) = (hole.cycle.initial, place.constant()) else {
-        return Err((LEVEL, LEVEL_HELP));
+        return computed_plane(hole, place);
     };
     hole.cycle.plane = Some(place);
     let half = if hole.side() { 0.5 } else { 1.0 };
     let step = ((place - initial) * half * 1e6).round() / 1e6;
     hole.put(Role::CycleR, Role::CycleRStep, Expr::Number(step));
+    Ok(())
+}
+
+/// The same of values that are computed, where the words of the blocks before tell the level.
+fn computed_plane(hole: &mut Hole<'_>, place: Expr) -> Result<(), Refused> {
+    let level = hole.computed.take().filter(|_| hole.fresh && !hole.place.is_shifted());
+    let Some(level) = level.filter(|_| lasts(&place)) else { return Err((LEVEL, LEVEL_HELP)) };
+    hole.cycle.plane = place.constant();
+    hole.put(Role::CycleR, Role::CycleRStep, way(level, place, hole.side()));
+    hole.asked.push((COMPUTED, COMPUTED_HELP, hole.op, false));
     Ok(())
 }
 
@@ -143,6 +154,11 @@ fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     let pecks = matches!(op, Op::FacePeck | Op::SidePeck);
     let told = hole.nc.word(Role::CycleDwell).cloned();
     let earlier = hole.all.other_waits || !hole.all.dwells.is_empty();
+    let known = hole.cycle.peck.clone();
+    if pecks {
+        // Known to the next holes even where this one is refused.
+        hole.cycle.peck = hole.nc.word(Role::CycleQ).cloned().or(hole.cycle.peck.take());
+    }
     if hole.begins && told.is_none() {
         if (waits || pecks) && hole.waits.is_offset() {
             hole.asked.push((OFFSET, OFFSET_HELP, op, true));
@@ -158,7 +174,7 @@ fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
             [only] => Some(only.clone()),
             _ => None,
         };
-        let last = hole.cycle.peck.clone().or(only);
+        let last = known.or(only);
         if own.is_none() {
             if hole.begins {
                 return Err((PECK, "write Q into this block"));
@@ -195,8 +211,10 @@ const STOPS_HELP: &str = "write the bore as moves: feed in, M5, rapid out, M3";
 const DEPTH: &str = "no source says what an increment of the depth counts from on the source";
 const BELOW: &str = "this drilling cycle begins between its retract plane and the bottom: it ends at the plane, and on the target where it began";
 const LEVEL: &str = "the target takes the retract plane as a way from where the cycle begins, which is not known here, or the plane is computed";
-const LEVEL_HELP: &str =
-    "write the place of the tool as numbers (G0 X.. Z..) in a block before the cycle, and R as a number";
+const LEVEL_HELP: &str = "write the place of the tool (G0 X.. Z..) into a block before the cycle, and R, as numbers or calculations";
+pub(super) const COMPUTED: &str = "the retract plane of this hole is computed, and holes of the target end where their cycle began: the source's end at the plane where the cycle begins below it";
+const COMPUTED_HELP: &str =
+    "make sure that the tool stands at the plane or beyond it before the cycle, whatever the variables hold";
 const WAIT: &str = "the wait of this hole is the last P of any code: the target needs it told";
 const PECK: &str =
     "the peck of this hole is not known here, and on the target it counts in its own block alone";

@@ -5,8 +5,10 @@
 //! conditions: that level is a known number, or is read where the cycle begins; the cycle begins above its plane; what lasts from block to block
 //! (a wait, a peck, a plane) is known where the target needs it again. Counter-example: a hole that a called program leaves the cycle of.
 
+mod all;
 mod by_place;
 mod by_step;
+mod levels;
 mod rigid;
 mod waits;
 mod walk;

@@ -1,13 +1,15 @@
 //! The walk through the drilling blocks of a program.
 
+use super::all::{All, all};
+use super::levels::Levels;
 use super::rigid::drop_rigid;
-use super::waits::{Waits, names_offset, other_waits};
+use super::waits::{Waits, other_waits};
 use super::{by_place, by_step, drills, tells_all};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
-use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
+use crate::dialect::{Control, Question};
+use crate::ir::{Expr, Module, Nc, NcItem, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::place::{Place, changes_coordinates};
 use crate::legalize::lathe::places::{at_blocks, may_be_entered};
@@ -55,21 +57,6 @@ pub(super) struct Cycle {
     pub is_ended: bool,
 }
 
-/// What holds of all holes of a program.
-#[derive(Clone, Debug, Default)]
-pub(super) struct All {
-    /// The waits that are told, each once.
-    pub dwells: Vec<Expr>,
-    /// The pecks.
-    pub pecks: Vec<Expr>,
-    /// True where some hole has no peck.
-    pub without_peck: bool,
-    /// True where a letter that lasts across codes as the wait may have been told by another code.
-    pub other_waits: bool,
-    /// True where nothing of the library turns the spindle.
-    pub stands: bool,
-}
-
 /// A block that drills.
 pub(super) struct Hole<'h> {
     pub nc: Nc,
@@ -81,6 +68,8 @@ pub(super) struct Hole<'h> {
     pub fresh: bool,
     /// Where the tool stands before it.
     pub place: Place,
+    /// The same along the axis of the hole, where it is computed.
+    pub computed: Option<Expr>,
     pub cycle: &'h mut Cycle,
     pub all: &'h All,
     pub target: &'h Control,
@@ -162,15 +151,19 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
         let straight = entered_straight(program);
         let begin = Place::keeping_level();
         let places = at_blocks(program, begin, entered);
+        let told = waits.at_blocks((index, program), entered);
         let mut walk = Walk {
             cycle: Cycle::default(),
             place: begin,
+            levels: Levels::default(),
             speed: None,
             stands: false,
-            waits: waits.begin((index, program)),
+            waits: waits.clone(),
             is_ended: false,
             open: Vec::new(),
+            rests: None,
         };
+        walk.waits.come_in(told.first().copied().unwrap_or_default());
         for (at, ((block, mut state), straight)) in
             program.blocks.iter_mut().zip(states).zip(straight).enumerate()
         {
@@ -179,7 +172,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 walk.place = places.get(at).copied().unwrap_or(begin);
                 walk.speed = None;
                 walk.stands = false;
-                walk.waits.come_in(at == 0);
+                walk.waits.come_in(told.get(at).copied().unwrap_or_default());
             }
             let mut out = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::take(&mut block.stmts) {
@@ -198,7 +191,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                         out.extend(made);
                         found.extend(asked.into_iter().map(|(what, help, op, once)| {
                             let told = Diagnostic::new(Code::Conditional, span, what).with_help(help);
-                            let told = told.assuming(Predicate::Substitute(op));
+                            let told = told.assuming(supposed(what, (op, span)));
                             (index, if once { told.asked_once() } else { told })
                         }));
                     }
@@ -215,6 +208,9 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 found.push((index, refused.with_help(CALLS_HELP)));
             }
         }
+        if let Some(span) = walk.rests {
+            context.rests_on_source(index, span, Question::HoleWaitBuilders);
+        }
         is_ended |= walk.is_ended;
         open.extend(walk.open.into_iter().map(|span| (index, span)));
     }
@@ -227,35 +223,11 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     }
 }
 
-/// What holds of all holes of a program.
-fn all(program: &Program, states: &[Modal]) -> All {
-    let mut all = All::default();
-    let keep = |list: &mut Vec<Expr>, value: Option<&Expr>| {
-        if let Some(value) = value.filter(|value| !list.contains(value)) {
-            list.push(value.clone());
-        }
-    };
-    for (block, state) in program.blocks.iter().zip(states) {
-        let mut state = state.clone();
-        for stmt in &block.stmts {
-            state.step(stmt);
-            let Some(nc) = stmt.kind.nc() else { continue };
-            all.other_waits |= names_offset(nc);
-            if drills(nc, &state).is_some() {
-                keep(&mut all.dwells, nc.word(Role::CycleDwell));
-                keep(&mut all.pecks, nc.word(Role::CycleQ));
-                all.without_peck |= nc.word(Role::CycleQ).is_none();
-            }
-        }
-    }
-    all.dwells.retain(|dwell| dwell.constant() != Some(0.0));
-    all
-}
-
 /// What a walk knows.
 struct Walk {
     cycle: Cycle,
     place: Place,
+    levels: Levels,
     /// The last speed.
     speed: Option<f64>,
     /// True where the spindle that turns the part was stopped, and taps of live tools alone came since.
@@ -265,6 +237,8 @@ struct Walk {
     is_ended: bool,
     /// Holes without a code, of a cycle that other ways lead to too.
     open: Vec<Span>,
+    /// A hole without a wait, where it is taken that P of a builder's code is none.
+    rests: Option<Span>,
 }
 
 /// What becomes of a block that drills, and what is asked.
@@ -300,6 +274,7 @@ impl Walk {
         let waits = self.waits.clone();
         self.waits.take(stmt);
         self.place.enter(stmt);
+        self.levels.enter(stmt, &mut self.place);
         let place = stmt.kind.nc().map_or(self.place, |nc| self.place.counted_in(nc));
         self.place.step(stmt);
         self.cycle.shifted |= stmt.kind.nc().is_some_and(changes_coordinates);
@@ -328,6 +303,9 @@ impl Walk {
                 "give the block a condition, or write its words in the block after it too",
             )));
         }
+        if op.is_waiting_hole() && nc.word(Role::CycleDwell).is_none() && waits.after_builders() {
+            self.rests = self.rests.or(Some(stmt.site.span));
+        }
         let fresh = before == Some(Op::CycleOff);
         let surface = state.op(Group::SpeedMode) == Some(Op::SurfaceSpeed);
         let turning = Turning {
@@ -350,7 +328,9 @@ impl Walk {
         if !fresh && !begins && self.cycle.written.is_none() {
             self.open.push(stmt.site.span);
         }
+        let computed = self.levels.level(&place, op.is_side_hole());
         let mut hole = Hole {
+            computed,
             nc: nc.clone(),
             op,
             begins,
@@ -380,6 +360,15 @@ impl Walk {
         let holes = [first].into_iter().chain(std::iter::repeat_n(more, times - 1));
         let made = lead.into_iter().map(new).chain(holes).chain(tail.into_iter().map(new));
         Some(Ok((made.collect(), asked)))
+    }
+}
+
+/// What a finding about a hole supposes.
+fn supposed(what: &str, (op, span): (Op, Span)) -> Predicate {
+    match op.is_side_hole() {
+        _ if what != by_step::COMPUTED => Predicate::Substitute(op),
+        true => Predicate::Levels(vec![span], 0),
+        false => Predicate::Levels(vec![span], 2),
     }
 }
 
