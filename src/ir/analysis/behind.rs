@@ -4,7 +4,7 @@
 //! force in all that is called, and only a statement of the same program ends it. So a program that is called again
 //! finds what it began itself.
 
-use super::modal::calls_of;
+use super::block_calls::calls_of;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Flow, Lattice, solve};
 use crate::ir::analysis::{CallGraph, Cfg};
 use crate::ir::{Block, BlockId, Call, Callee, Module, Program, Stmt, StmtKind, TermKind};

@@ -1,6 +1,6 @@
 //! Which programs calls may come to, those by a computed number too.
 
-use super::modal::calls_of;
+use super::block_calls::calls_of;
 use crate::ir::analysis::{Ranges, Summaries, Values};
 use crate::ir::{Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;

@@ -5,6 +5,7 @@
 //! changes is followed by [`dataflow`].
 
 pub(crate) mod behind;
+mod block_calls;
 mod call_graph;
 mod cfg;
 pub(crate) mod computed_calls;
@@ -30,12 +31,13 @@ pub(crate) mod upward_exposed;
 mod vacancy;
 mod values;
 
+pub use block_calls::{calls_of, span_of};
 pub use call_graph::CallGraph;
 pub use cfg::{Cfg, entries, may_come_back, modal_bodies, own_call, reachable};
 pub use effects::{Seen, Summaries, Vars};
 pub use live_statics::{LiveStatics, statics};
 pub use liveness::{Liveness, Transfer, Ways, live_after};
-pub use modal::{Modal, Setting, calls_of, span_of};
+pub use modal::{Modal, Setting};
 pub use modal_facts::{ModalFacts, replace_statements};
 pub use ranges::{LAST_P, Numbers, Ranges, Values, evaluate};
 pub use set::{BitRow, Universe, VarSet};

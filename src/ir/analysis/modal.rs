@@ -7,8 +7,7 @@ use super::tool_word::ToolWord;
 use super::touches::Touches;
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::{Block, Call, Expr, Nc, NcItem, Stmt, StmtKind, TermKind};
-use crate::text::Span;
+use crate::ir::{Call, Expr, Nc, NcItem, Stmt, StmtKind};
 
 /// What is in force of one group.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -385,22 +384,4 @@ fn only_says_where(nc: &Nc) -> bool {
     let stays =
         |role: Role| !matches!(role, Role::LengthOffset | Role::RadiusOffset | Role::Tool | Role::Feed);
     nc.items.iter().all(|item| matches!(item, NcItem::Word(role, _) if stays(*role)))
-}
-
-/// Every call of a block: modal ones and the terminator's.
-pub fn calls_of(block: &Block) -> impl Iterator<Item = &Call> {
-    let modal = block.stmts.iter().filter_map(|stmt| match &stmt.kind {
-        StmtKind::ModalCall(call) => Some(&**call),
-        _ => None,
-    });
-    modal.chain(match &block.term.kind {
-        TermKind::Call { call, .. } => Some(&**call),
-        _ => None,
-    })
-}
-
-/// Where a call of [`calls_of`] stands.
-pub fn span_of(block: &Block, call: &Call) -> Span {
-    let modal = block.stmts.iter().find(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(c) if **c == *call));
-    modal.map_or(block.term.site.span, |stmt| stmt.site.span)
 }

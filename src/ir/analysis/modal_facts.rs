@@ -7,9 +7,10 @@
 //! computed call enters every program that it may be meant for. What a program starts in that has no known caller or ends the
 //! run, and what an unknown callee leaves, is not known.
 
+use super::block_calls::calls_of;
 use super::cfg::reachable;
 use super::computed_calls::{Callees, computed_calls};
-use super::modal::{Modal, calls_of};
+use super::modal::Modal;
 use super::touches::{Place, Touches, routines};
 use crate::ir::analysis::dataflow::{Lattice, Routines};
 use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, Stmts, TermKind};

@@ -2,7 +2,7 @@
 
 mod written;
 
-use super::modal::calls_of;
+use super::block_calls::calls_of;
 use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
 use crate::ir::analysis::{BitRow, CallGraph, Cfg, Universe, VarSet};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};

@@ -74,6 +74,10 @@ pub(super) const ENTRY: &[Pass] = &[
     Pass::edits("start-alike", "codes at a head go that the target begins in anyway", start::drop_alike)
         .when(|_, context| !context.target.start().is_empty())
         .brings_nothing(),
+    Pass::each("skips-apart", "each block of a way round blocks gets its block skip again", skip_runs::apart)
+        .when(|c, _| c.has(Feature::Skip))
+        .needs(&["skip-runs"])
+        .changes_flow(),
 ];
 
 // What these put in, they put in for something that stood there before.
@@ -163,10 +167,6 @@ pub(super) const OPERATOR: &[Pass] = &[
 ];
 
 pub(super) const LAYOUT: &[Pass] = &[
-    Pass::each("skips-apart", "each block of a way round blocks gets its block skip again", skip_runs::apart)
-        .when(|c, _| c.has(Feature::Skip))
-        .needs(&["skip-runs"])
-        .changes_flow(),
     Pass::rewrites(
         "sequence-numbers",
         "sequence numbers stand at the head of what became of their blocks",

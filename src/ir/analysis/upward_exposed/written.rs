@@ -1,8 +1,8 @@
 //! Which variables every way through a called routine writes.
 
 use super::{Callees, Routine};
+use crate::ir::analysis::calls_of;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
-use crate::ir::analysis::modal::calls_of;
 use crate::ir::analysis::{BitRow, Cfg, Universe};
 use crate::ir::{Block, BlockId, Call, Module, Place, TermKind};
 use std::borrow::Cow;
