@@ -58,12 +58,14 @@ impl Signs {
     pub(super) fn of(program: &Program, found: &[Diagnostic], bytes: &[u8], source: &Control) -> Self {
         let mut signs = Self::default();
         let mut seen = BTreeSet::new();
+        let mut is_sure = false;
         for finding in found.iter().filter(|finding| finding.code == Code::LatheProgram) {
             let text = bytes.get(finding.span.start as usize);
             // A letter that is no axis of a mill is one of a machine with another axis too.
             let weight = if text.is_some_and(|letter| b"UVWuvw".contains(letter)) { 2 } else { ENOUGH };
             if seen.insert(finding.message.clone()) {
                 signs.lathe += weight;
+                is_sure |= weight == ENOUGH;
                 // What lowering says of it is the sign.
                 signs.first.get_or_insert((finding.span, finding.message.to_string()));
             }
@@ -80,10 +82,8 @@ impl Signs {
             }
             signs.mill += mill_signs(nc).filter(|(_, what)| words.insert(what)).map(|(n, _)| n).sum::<u32>();
         }
-        if signs.lathe >= ENOUGH
-            && words.contains(Y)
-            && ![LENGTH, CHANGE].iter().any(|what| words.contains(what))
-        {
+        let mills = [LENGTH, CHANGE].iter().any(|what| words.contains(what));
+        if is_sure && words.contains(Y) && !mills {
             // A lathe has Y too: across its live tools, and as the second axis of a face.
             signs.mill -= Y_COUNTS;
         }

@@ -44,9 +44,9 @@ Program the axis directly."
 Write the routine as a program of the library."
 
     "0317" SpeedRange Review "a fraction of the spindle speed picks a belt range"
-"On this control the digit after the point of a spindle speed is not part of the speed: it picks the belt range. The speed is converted without it, and the target picks the range.
+"On this control the digit after the point of a spindle speed is not part of the speed: it picks the belt range. The speed is converted without it, and the target picks the range by the speed. It is told once for the library.
 
-Check that the target picks the same range."
+Check that the target has the torque for slow heavy cuts in the range that it picks."
 
     "0318" SubroutineArea Error "the subroutines at the head are not closed"
 "The program defines subroutines at its head, but the code that ends their area is missing, so it is not known where its main part begins.
