@@ -109,7 +109,8 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     }
     let facts = context.modal_facts(module);
     let holds = context.features.op(Op::SpindleOrient);
-    let lost = lost::lost(module, context.source);
+    let mut lost = lost::lost(module, context.source);
+    spread(&mut lost, module, context);
     let passes = |control: &Control| {
         control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
     };
@@ -127,7 +128,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 ends: run_ends(index, &block.term.kind),
                 started: started[index],
                 holds,
-                lost,
+                lost: lost[index],
                 after: &after,
                 again: Vec::new(),
                 tool: None,
@@ -172,6 +173,12 @@ fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
         Running::ALL.map(|running| context.may_concern(index, |features| starts_in(features, running)))
     };
     let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(starts).collect();
+    spread(&mut found, module, context);
+    found
+}
+
+/// Gives each program what holds of those that it calls, and of those that call it.
+fn spread(found: &mut [[bool; 2]], module: &Module, context: &Context<'_>) {
     let mut callees = vec![BTreeSet::new(); found.len()];
     for (caller, callee) in context.called(module).pairs(module) {
         callees[caller].insert((callee, false));
@@ -180,10 +187,8 @@ fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
     let either = |mine: &mut [bool; 2], theirs: &[bool; 2], _| {
         mine.iter_mut().zip(theirs).fold(false, |changed, (mine, theirs)| mine.join(theirs) || changed)
     };
-    // First what a program or those that it calls start, then what was started by those that call it.
-    graph.bottom_up(&mut found, either);
-    graph.top_down(&mut found, either);
-    found
+    graph.bottom_up(found, either);
+    graph.top_down(found, either);
 }
 
 /// Lays down a stop, and before it what ends what is running; the words beside the stop come first.
@@ -226,7 +231,8 @@ struct Place<'p> {
     started: [bool; 2],
     /// True if some program of the library holds the spindle at an angle.
     holds: bool,
-    /// True if a stop or a tool change of the library may leave it ended: whether it runs later is not known then.
+    /// True if a stop or a tool change of the program, or of one that it calls or that calls it, may leave it ended: whether it runs
+    /// later is not known then.
     lost: [bool; 2],
     after: &'p After<'p>,
     /// What the target ends at the stop and the source does not: it is started again after it.

@@ -6,21 +6,21 @@ use crate::dialect::Control;
 use crate::ir::{BlockId, Module, Program, Stmt, StmtKind, TermKind};
 use std::collections::BTreeSet;
 
-/// True where a stop or a tool change of the library may end it for the source, and some way comes to another stop, or leaves the
-/// program, before the program says what runs.
-pub(super) fn lost(module: &Module, source: &Control) -> [bool; 2] {
-    Running::ALL.map(|running| {
-        module.programs.iter().any(|program| {
-            let mut blocks = program.ids().zip(&program.blocks);
-            blocks.any(|(id, block)| {
-                let may_end = |(pause, _)| source.ends(pause, running).answer != Some(false);
-                let mut stops = block.stmts.iter().enumerate().filter(|(_, stmt)| {
-                    let stops = pause_of(&stmt.kind).filter(|(pause, _)| *pause != Pause::Message);
-                    !says(stmt, running) && stops.is_some_and(may_end)
-                });
-                stops.any(|(at, _)| is_left(program, (id, at + 1), running))
-            })
-        })
+/// For each program, true where a stop or a tool change of it may end it for the source, and some way comes to another stop, or
+/// leaves the program, before the program says what runs.
+pub(super) fn lost(module: &Module, source: &Control) -> Vec<[bool; 2]> {
+    let of = |program: &Program| Running::ALL.map(|running| is_lost(program, running, source));
+    module.programs.iter().map(of).collect()
+}
+
+fn is_lost(program: &Program, running: Running, source: &Control) -> bool {
+    let may_end = |(pause, _)| source.ends(pause, running).answer != Some(false);
+    program.ids().zip(&program.blocks).any(|(id, block)| {
+        let mut stops = block.stmts.iter().enumerate().filter(|(_, stmt)| {
+            let stops = pause_of(&stmt.kind).filter(|(pause, _)| *pause != Pause::Message);
+            !says(stmt, running) && stops.is_some_and(may_end)
+        });
+        stops.any(|(at, _)| is_left(program, (id, at + 1), running))
     })
 }
 
