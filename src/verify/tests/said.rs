@@ -94,6 +94,24 @@ fn a_question_may_be_asked_without_its_text() {
     assert_eq!(found(&omits, &target.replace("SET V32", "SET V31")).0, Outcome::Different);
 }
 
+/// How far over the last depth a peck begins is a setting of each machine: where one profile says it, the other is taken to be
+/// set so; where both do, they are compared.
+#[test]
+fn a_clearance_that_one_profile_says_is_taken_of_both() {
+    let text = "O1\nG21G90G17G40G49G80G54\nS800M3\nG0X0.Y0.\nG98G83X5.Z-8.R2.Q2.F100.\nG80\nM30\n";
+    let haas = "dialect = \"haas\"\nunits = \"metric\"\n";
+    let says = |profile: &str, clear: &str| {
+        format!("{profile}[behaviours]\ncycle.peck.clearance = \"{clear}\"\n")
+            .replace("cycle.peck.clearance", "\"cycle.peck.clearance\"")
+    };
+    let found = |ours: &str, theirs: &str| judged([ours, theirs], text, text);
+    let one = found(FANUC, &says(haas, "0.5"));
+    assert_ne!(one.0, Outcome::Different, "{}", one.1);
+    let other = found(&says(FANUC, "0.5"), haas);
+    assert_ne!(other.0, Outcome::Different, "{}", other.1);
+    assert_eq!(found(&says(FANUC, "0.5"), &says(haas, "0.8")).0, Outcome::Different);
+}
+
 /// Who has said what the word of the tool in the spindle does is not asked by each program.
 #[test]
 fn a_settled_tool_word_is_no_question() {
