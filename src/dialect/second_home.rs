@@ -1,4 +1,5 @@
-//! Settings that more than one module asks: the place of the second reference position of other machines, and the letters of increments.
+//! Settings that more than one module asks: the place of the second reference position of other machines, the letters of increments, pecks, and
+//! whether the tool in the spindle is changed again.
 
 use super::{Control, Question, Setting, Units};
 use crate::canon::{Act, Op, Role};
@@ -34,6 +35,11 @@ impl Control {
         let key = Question::CornerLetters.fact();
         let mut rows = self.dialect().settings.iter();
         rows.find(|row| row.sets.values().any(|sets| sets.contains_key(key)))
+    }
+
+    /// True if the word of the tool that is in the spindle changes nothing.
+    pub fn skips_same_tool(&self) -> bool {
+        self.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
     }
 
     /// How far over the last depth a peck of the machine begins, millimetres, as far as its table or its profile says it.

@@ -1,8 +1,8 @@
 //! How the end of each block is written, given that blocks stand in source order.
 
-use super::arrivals::{Arrivals, callees};
 use super::loops;
 use crate::dialect::Control;
+use crate::ir::analysis::{Arrivals, callees};
 use crate::ir::{Block, BlockId, Cond, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::ThenLines;
 

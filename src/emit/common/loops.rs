@@ -9,7 +9,7 @@
 //! deeper than the control allows. Jumps out of the body are allowed.
 //! Counter-example: `N1 IF[..]GOTO9 .. IF[..]GOTO1 .. GOTO1 N9` goes back twice and stays as it is.
 
-use super::arrivals::Arrivals;
+use crate::ir::analysis::Arrivals;
 use crate::ir::{Block, BlockId, Cond, Program, StmtKind, TermKind};
 
 /// A loop, in the layout of its program.

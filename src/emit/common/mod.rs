@@ -3,7 +3,6 @@
 //!
 //! Nothing here knows how a target spells what stands on a line.
 
-pub mod arrivals;
 pub mod comments;
 pub mod digits;
 pub mod flow;

@@ -4,10 +4,10 @@ use super::Emitter;
 use super::labels::Labels;
 use super::lines::Kind;
 use crate::canon::Func;
-use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::digits::write_integer;
 use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
+use crate::ir::analysis::{Arrivals, callees};
 use crate::ir::{Block, BlockId, Cond, Expr, SourceInfo, StmtKind, TermKind};
 
 impl<'p> Emitter<'p> {

@@ -4,11 +4,11 @@ use super::Emitter;
 use crate::CHECKED;
 use crate::diag::Code;
 use crate::dialect::Question;
-use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::labels::{self, Labels, Standing};
 use crate::emit::common::lines::Kind;
 use crate::emit::common::reach::Reach;
+use crate::ir::analysis::{Arrivals, callees};
 use crate::ir::{Block, BlockId, Cond, SourceInfo, TermKind};
 use crate::syntax::Label;
 

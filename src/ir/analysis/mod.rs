@@ -4,6 +4,7 @@
 //! Every answer errs to the safe side. Nothing recurses on the size of a program. What is followed until nothing
 //! changes is followed by [`dataflow`].
 
+mod arrivals;
 pub(crate) mod behind;
 mod block_calls;
 mod call_graph;
@@ -31,6 +32,7 @@ pub(crate) mod upward_exposed;
 mod vacancy;
 mod values;
 
+pub use arrivals::{Arrivals, callees};
 pub use block_calls::{calls_of, span_of};
 pub use call_graph::CallGraph;
 pub use cfg::{Cfg, entries, may_come_back, modal_bodies, own_call, reachable};

@@ -17,7 +17,6 @@ mod lost;
 
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
@@ -111,10 +110,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let holds = context.features.op(Op::SpindleOrient);
     let mut lost = lost::lost(module, context.source);
     spread(&mut lost, module, context);
-    let passes = |control: &Control| {
-        control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
-    };
-    let passes = passes(context.target) && !passes(context.source);
+    let passes = context.target.skips_same_tool() && !context.source.skips_same_tool();
     let after = After::of(module, &facts, [context.source, context.target]);
     let started = started(module, context);
     for (index, program) in module.programs.iter().enumerate() {

@@ -61,8 +61,8 @@ fn rows(cycle: Option<Op>, source: &Control) -> Vec<&CodeMeaning> {
     }
 }
 
-/// What a letter is to all of them; none where they differ, or one does not take it.
-fn role(letter: char, rows: &[&CodeMeaning]) -> Option<Role> {
+/// The role that a letter has beside each of these codes; none if they differ, or if one does not take it.
+fn common_role(letter: char, rows: &[&CodeMeaning]) -> Option<Role> {
     let letter = letter.to_string();
     let mut roles = rows.iter().map(|row| row.words.get(letter.as_str()));
     let first = *roles.next()??;
@@ -75,7 +75,7 @@ fn take(nc: &mut Nc, rows: &[&CodeMeaning], source: &Control) -> bool {
     for item in &mut nc.items {
         let NcItem::Word(role, value) = item else { continue };
         let letter = source.letter(*role, None).filter(|(_, comma)| !comma && ARC.contains(role));
-        let Some(own) = letter.and_then(|(letter, _)| self::role(letter, rows)) else { continue };
+        let Some(own) = letter.and_then(|(letter, _)| common_role(letter, rows)) else { continue };
         *role = own;
         // A count is a whole number, whatever a length without a point counts.
         if let (Role::Repeat, Expr::Increments(count)) = (own, &*value) {

@@ -5,47 +5,20 @@
 //! them gets its `/` again. Side conditions: nothing comes into the run but at its head, and nothing leaves it but by calls that come
 //! back. Where a pass put another way into the run, it stays a branch. Counter-example: a label in the run that a jump goes to.
 
-use crate::ir::{BlockId, Callee, Cond, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator};
+use crate::ir::analysis::Arrivals;
+use crate::ir::{BlockId, Cond, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator};
 use crate::legalize::Context;
 use crate::legalize::features::Feature;
 use crate::legalize::rewrite::{Part, rebuild};
-use crate::syntax::Label;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A place in a program: a block, and a statement of it; past the last one stands its end.
 type Place = (usize, usize);
 
-/// By block, where control comes from.
-struct Ways {
-    from: Vec<Vec<usize>>,
-    entered: BTreeSet<usize>,
-}
-
-impl Ways {
-    /// Of a program; `by_number` where something may return to any of its sequence numbers.
-    fn of(program: &Program, by_number: bool) -> Self {
-        let mut ways = Self { from: vec![Vec::new(); program.blocks.len()], entered: BTreeSet::from([0]) };
-        for (at, block) in program.blocks.iter().enumerate() {
-            for to in block.term.kind.successors() {
-                ways.from.get_mut(to.index()).into_iter().for_each(|from| from.push(at));
-            }
-            let called = crate::legalize::calls_of(block).filter_map(|call| match call.callee {
-                Callee::Block(entry) => Some(entry.index()),
-                _ => None,
-            });
-            ways.entered.extend(called);
-            if by_number && block.labels.iter().any(|label| matches!(label, Label::Number(_))) {
-                ways.entered.insert(at);
-            }
-        }
-        ways
-    }
-
-    fn is_only_from(&self, block: usize, from: &[usize]) -> bool {
-        let mut found = self.from.get(block).cloned().unwrap_or_default();
-        found.sort_unstable();
-        !self.entered.contains(&block) && found == from
-    }
+/// The ways into each block; a sequence number is one where something may return to any of them.
+fn arrivals(program: &Program, context: &Context<'_>) -> Arrivals {
+    let by_number = context.features.has(Feature::ReturnTo);
+    Arrivals::of_program(program, |_| by_number)
 }
 
 /// A run of blocks with a block skip.
@@ -56,6 +29,12 @@ struct Run {
     /// The blocks whose ends go round one call of the run.
     rounds: Vec<usize>,
     blocks: usize,
+}
+
+/// True if control comes into a block from these two alone.
+fn is_from_both(ways: &Arrivals, block: usize, both: [usize; 2]) -> bool {
+    let from = ways.of(block);
+    !ways.is_entered(block) && from.len() == 2 && both.iter().all(|at| from.contains(at))
 }
 
 /// The switch that a block's end goes by, and where it goes while that is on, and off.
@@ -78,11 +57,11 @@ fn goes_on(term: &TermKind) -> Option<usize> {
 }
 
 /// The blocks from `first` on, each of which only the one before leads to, up to the one that goes on at `join`.
-fn chain(program: &Program, ways: &Ways, from: usize, first: usize, join: usize) -> Option<Vec<usize>> {
+fn chain(program: &Program, ways: &Arrivals, from: usize, first: usize, join: usize) -> Option<Vec<usize>> {
     let (mut before, mut at, mut found) = (from, first, Vec::new());
     loop {
         let block = program.blocks.get(at)?;
-        if at != before + 1 || !ways.is_only_from(at, &[before]) {
+        if at != before + 1 || !ways.is_only_from(at, before) {
             return None;
         }
         found.push(at);
@@ -95,7 +74,7 @@ fn chain(program: &Program, ways: &Ways, from: usize, first: usize, join: usize)
 }
 
 /// The run that begins at a place, if it has more than one block.
-fn run_at(program: &Program, ways: &Ways, (mut at, mut number): Place) -> Option<Run> {
+fn run_at(program: &Program, ways: &Arrivals, (mut at, mut number): Place) -> Option<Run> {
     let first = program.blocks.get(at)?;
     let level = match first.stmts.get(number) {
         Some(stmt) => stmt.site.skip.filter(|_| stmt.kind != StmtKind::Comment)?,
@@ -117,13 +96,13 @@ fn run_at(program: &Program, ways: &Ways, (mut at, mut number): Place) -> Option
             (Some((other, on, off)), _) if other == level => {
                 let body = chain(program, ways, at, off.index(), on.index());
                 let Some(last) = body.and_then(|body| body.last().copied()) else { break };
-                if on.index() != last + 1 || !ways.is_only_from(on.index(), &[at, last]) {
+                if on.index() != last + 1 || !is_from_both(ways, on.index(), [at, last]) {
                     break;
                 }
                 run.rounds.push(at);
                 (run.blocks, run.end, at) = (run.blocks + 1, (on.index(), 0), on.index());
             }
-            (None, TermKind::Jump(to)) if to.index() == at + 1 && ways.is_only_from(at + 1, &[at]) => at += 1,
+            (None, TermKind::Jump(to)) if to.index() == at + 1 && ways.is_only_from(at + 1, at) => at += 1,
             _ => break,
         }
     }
@@ -131,7 +110,7 @@ fn run_at(program: &Program, ways: &Ways, (mut at, mut number): Place) -> Option
 }
 
 /// The runs of a program, by where they begin.
-fn runs(program: &Program, ways: &Ways) -> BTreeMap<Place, Run> {
+fn runs(program: &Program, ways: &Arrivals) -> BTreeMap<Place, Run> {
     let mut found = BTreeMap::new();
     let mut free = (0, 0);
     for (at, block) in program.blocks.iter().enumerate() {
@@ -149,7 +128,7 @@ fn runs(program: &Program, ways: &Ways) -> BTreeMap<Place, Run> {
 
 /// Makes runs of blocks with a block skip branches; true where there was one.
 pub fn together(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
-    let ways = Ways::of(program, context.features.has(Feature::ReturnTo));
+    let ways = arrivals(program, context);
     let runs = runs(program, &ways);
     if runs.is_empty() {
         return false;
@@ -197,7 +176,7 @@ pub fn together(program: &mut Program, _: usize, context: &mut Context<'_>) -> b
 
 /// Gives each block of such a branch its block skip again; true where there was one.
 pub fn apart(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
-    let ways = Ways::of(program, context.features.has(Feature::ReturnTo));
+    let ways = arrivals(program, context);
     let mut levels: BTreeMap<usize, u8> = BTreeMap::new();
     let mut heads: BTreeSet<usize> = BTreeSet::new();
     for (at, block) in program.blocks.iter().enumerate() {

@@ -13,11 +13,6 @@ pub fn brought(source: &Control, target: &Control) -> bool {
     target.is(Question::ToolWordSelectsLength) && !source.is(Question::ToolWordSelectsLength)
 }
 
-/// True if the word of the tool that is in the spindle changes nothing.
-pub fn skips_same_tool(control: &Control) -> bool {
-    control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
-}
-
 /// True if it is settled what the word of the tool that is in the spindle does.
 pub fn is_told_of_same_tool(control: &Control) -> bool {
     control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.origin.is_settled())

@@ -6,7 +6,7 @@ use super::differ::{ANOTHER_FEED, differ};
 use super::exit_state::{left_differs, outside_differs};
 use super::found::{Comparison, Difference};
 use super::kinds::is_cut;
-use super::lengths::{brought, is_told_of_same_tool, shown_by_moves, skips_same_tool};
+use super::lengths::{brought, is_told_of_same_tool, shown_by_moves};
 use super::letters;
 use super::loose::{Found, Order, farthest};
 use super::observe::{Act, observed};
@@ -293,7 +293,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             && self.brings_lengths
             && act.told == Told::SameTool
             && let EventKind::ToolChange { tool } = what
-            && skips_same_tool(self.target.control)
+            && self.target.control.skips_same_tool()
         {
             let text = format!("tool {tool} is in the spindle: the target does not change to it again");
             // Who has said so of the machine is not asked by each program.

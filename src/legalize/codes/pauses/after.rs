@@ -1,7 +1,7 @@
 //! Whether a program cuts after a place before it says itself what runs.
 
 use crate::canon::{Group, Op, Pause, Role, Running};
-use crate::dialect::{Control, Question};
+use crate::dialect::Control;
 use crate::ir::{BlockId, Call, Callee, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::{Modal, ModalFacts};
 use crate::syntax::ProgramName;
@@ -63,8 +63,7 @@ impl<'m> After<'m> {
         let ends = |control: &Control, running| {
             let ends = control.ends(Pause::Change, running);
             // A change to the tool that is in the spindle may be passed over.
-            let always = control.behaviour(Question::ToolWordAgain).is_none_or(|row| row.value != "skipped");
-            ends.known && ends.answer == Some(true) && always
+            ends.known && ends.answer == Some(true) && !control.skips_same_tool()
         };
         let changes_end = Running::ALL.map(|running| controls.iter().all(|control| ends(control, running)));
         Self { module, facts, programs, by_name, changes_end }

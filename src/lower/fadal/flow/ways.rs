@@ -176,11 +176,11 @@ impl<'b> Flow<'b> {
             Some((_, on)) => Some(on),
             None => level.map(|_| Box::new(state.clone())),
         };
-        let behind = self.items(&block.items, at, state, 0, codes);
-        match (level.zip(on), behind) {
-            (Some(skipping), Some(behind)) => Some(State { skipping: Some(skipping), ..behind }),
+        let after = self.items(&block.items, at, state, 0, codes);
+        match (level.zip(on), after) {
+            (None, after) => after,
             (Some((_, on)), None) => Some(*on),
-            (None, behind) => behind,
+            (skipping, Some(after)) => Some(State { skipping, ..after }),
         }
     }
 

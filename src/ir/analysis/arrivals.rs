@@ -4,7 +4,7 @@ use crate::ir::{Block, BlockId, Call, Callee, Program, StmtKind, TermKind};
 use crate::syntax::Label;
 
 /// The ways into each block.
-pub(in crate::emit) struct Arrivals {
+pub struct Arrivals {
     from: Vec<Vec<usize>>,
     entered: Vec<bool>,
 }
@@ -52,7 +52,7 @@ impl Arrivals {
 }
 
 /// The blocks that a block calls.
-pub(in crate::emit) fn callees(block: &Block) -> impl Iterator<Item = BlockId> {
+pub fn callees(block: &Block) -> impl Iterator<Item = BlockId> {
     let entry = |call: &Call| match call.callee {
         Callee::Block(entry) => Some(entry),
         _ => None,
