@@ -56,7 +56,7 @@ impl Profile {
             .retain(|row| !self.signal.iter().any(|own| (own.input, own.output) == (row.input, row.output)));
         signal.extend(self.signal);
         Self {
-            dialect: self.dialect,
+            dialect: base.dialect,
             extends: self.extends,
             title: self.title.or(base.title),
             machine: self.machine.or(base.machine),
@@ -125,7 +125,9 @@ fn load(path: &Path, after: &mut Vec<PathBuf>) -> Result<Profile, Unreadable> {
         let span = Span::new(offset(place.start), offset(place.end));
         told(&[Diagnostic::new(Code::MachineProfile, span, message).with_help(help)])
     };
-    if registry::find(&profile.dialect).is_none() {
+    // Without a dialect of its own, a profile is of that of the one that it extends.
+    let told_there = profile.dialect.is_empty() && profile.extends.is_some();
+    if !told_there && registry::find(&profile.dialect).is_none() {
         let message = match profile.dialect.as_str() {
             "" => "the profile does not say whose it is".to_owned(),
             other => format!("no dialect is named '{other}'"),
@@ -163,7 +165,7 @@ fn load(path: &Path, after: &mut Vec<PathBuf>) -> Result<Profile, Unreadable> {
         return Err(fault("extends", message, "put what they have in common into fewer of them"));
     }
     let base = load(&place, after)?;
-    if base.dialect != profile.dialect {
+    if !told_there && base.dialect != profile.dialect {
         let message = format!(
             "{} is a profile for '{}', this one for '{}'",
             place.display(),

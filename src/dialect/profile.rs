@@ -149,6 +149,7 @@ pub enum Units {
     /// Inches.
     Inch,
     /// Millimetres.
+    #[serde(alias = "mm")]
     Metric,
 }
 

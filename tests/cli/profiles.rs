@@ -54,7 +54,7 @@ fn a_profile_extends_another() {
         site("M15", "omit")
     );
     let own =
-        format!("dialect = \"fanuc\"\nextends = \"shop/base.toml\"\nhead = false\n{}", site("M14", "omit"));
+        format!("extends = \"shop/base.toml\"\nhead = false\nunits = \"mm\"\n{}", site("M14", "omit"));
     let shop = Shop::with(&[("a.nc", &program), ("m/shop/base.toml", &base), ("m/own.toml", &own)]);
     let run = shop.run("convert a.nc --from fanuc --to haas --machine m/own.toml");
     assert_eq!(run.code, 0, "{}", run.err);
@@ -71,6 +71,8 @@ fn what_is_wrong_with_an_extended_profile_is_told_at_its_place() {
         ("key.toml", "dialect = \"fanuc\"\n\nmachin = \"mill\"\n"),
         ("fact.toml", "dialect = \"fanuc\"\n\nconfirm = [\"behaviour:no.such\"]\n"),
         ("haas.toml", "dialect = \"haas\"\n"),
+        ("none.toml", "title = \"whose?\"\n"),
+        ("of-none.toml", "extends = \"none.toml\"\n"),
         ("of-key.toml", &extends("key.toml")),
         ("of-fact.toml", &extends("fact.toml")),
         ("of-haas.toml", &extends("haas.toml")),
@@ -82,6 +84,7 @@ fn what_is_wrong_with_an_extended_profile_is_told_at_its_place() {
     let line = "convert a.nc --from fanuc --to haas --machine";
     shop.fails(&format!("{line} of-key.toml"), &["key.toml:3", "machin"]);
     shop.fails(&format!("{line} of-fact.toml"), &["fact.toml:3", "no.such"]);
+    shop.fails(&format!("{line} of-none.toml"), &["none.toml", "does not say whose it is"]);
     shop.fails(&format!("{line} of-haas.toml"), &["of-haas.toml:2", "'haas'"]);
     shop.fails(&format!("{line} of-nothing.toml"), &["of-nothing.toml:2", "nowhere.toml"]);
     shop.fails(&format!("{line} of-folder.toml"), &["of-folder.toml:2"]);
@@ -332,8 +335,8 @@ fn each_way_to_be_wrong_is_told_at_its_place() {
             &["p.toml:2:9", "a text in quotes must stand here", "docs/profiles.md"],
         ),
         (
-            b"dialect = \"fanuc\"\nunits = \"mm\"\n",
-            &["p.toml:2:9", "'mm' is no answer here: it is \"inch\" or \"metric\""],
+            b"dialect = \"fanuc\"\nunits = \"cm\"\n",
+            &["p.toml:2:9", "'cm' is no answer here: it is \"inch\", \"metric\" or \"mm\""],
         ),
         (
             b"dialect = \"fanuc\"\nunits = \"inch\" or \"metric\"\n",
