@@ -118,6 +118,7 @@ fn code<'c>(
             return Ok(());
         }
         read.command.ops.push(row.op);
+        read.command.ops.extend_from_slice(&row.with);
         read.command.words.extend(row.fixed.iter().map(|(role, value)| (*role, *value)));
         if matches!(row.op, Op::Builder | Op::MachineSpecific) {
             read.command.own_code = Some(name());

@@ -2,6 +2,7 @@
 
 use super::control::Control;
 use super::site::{SiteCode, Without};
+use super::spelling::{Beside, CodeHead};
 use super::{CodeMeaning, faults_as_text, site_rows};
 use crate::canon::{Act, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -79,12 +80,65 @@ enum Met {
 }
 
 fn met(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Met, String> {
+    let codes = codes(code).ok_or_else(|| format!("'{code}' is not a code"))?;
+    if let [code] = codes.as_slice() {
+        return met_one(site, act, code, target);
+    }
+    let mut ops = Vec::new();
+    for code in &codes {
+        let head = CodeHead::read(code);
+        let row = head.and_then(|head| target.code(head.letter, head.number(), &[]));
+        let row = row.filter(|row| site_rows::can_stand_together(row.op) && row.fixed.is_empty());
+        let row = row.ok_or_else(|| {
+            format!(
+                "{code} of the target cannot stand beside another code here: only codes of spindle and coolant can. Give {} one code, \
+                 or do = \"stop\"",
+                site.code
+            )
+        })?;
+        ops.push(row.op);
+    }
+    let op = ops.remove(0);
+    let clash = ops
+        .iter()
+        .enumerate()
+        .any(|(at, one)| std::iter::once(&op).chain(&ops[..at]).any(|other| one.group() == other.group()));
+    if clash {
+        return Err(format!("'{code}' switches one thing twice: name each code once"));
+    }
+    if !site.words.is_empty() {
+        return Err(format!("{} becomes several codes, and has words: leave 'words' out", site.code));
+    }
+    Ok(Met::Source(CodeMeaning { op, with: ops, preferred: false, ..site.row(None) }))
+}
+
+/// Each code of a target, with its words: `M3 M8` are two, `G187 P1` is one.
+fn codes(written: &str) -> Option<Vec<String>> {
+    let mut codes: Vec<String> = Vec::new();
+    for word in written.split(' ').filter(|word| !word.is_empty()) {
+        match codes.last_mut() {
+            Some(last) if !word.starts_with(['G', 'M']) => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            _ => codes.push(CodeHead::read(word).map(|_| word.to_owned())?),
+        }
+    }
+    Some(codes).filter(|codes| !codes.is_empty())
+}
+
+/// The row of one code of the target, which may have words with numbers beside it: `M19 P90`.
+fn met_one(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Met, String> {
     let named = CodeMeaning { code: code.into(), ..site.row(None) };
     let head = named.head().ok_or_else(|| format!("'{code}' is not a code"))?;
-    // What only machines of its kind have a profile may name as a builder's code.
-    let standard = target.code(head.letter, head.number(), &[]);
-    let standard = standard.filter(|row| !matches!(row.op, Op::Builder | Op::MachineSpecific));
-    let Some(standard) = standard else {
+    let beside = named.beside().ok_or_else(|| format!("'{code}' is not a code"))?;
+    let number = |word: &Beside| Some(f64::from(word.thousandths?) / 1000.0);
+    let words: Vec<(char, Option<f64>)> = beside.iter().map(|word| (word.letter, number(word))).collect();
+    // What only machines of its kind have a profile may name as a builder's code; so may it a mode of quality, which is
+    // never written by itself.
+    let standard = target.code(head.letter, head.number(), &words);
+    let own = |op: Op| matches!(op, Op::Builder | Op::MachineSpecific | Op::PathQuality);
+    let Some(standard) = standard.filter(|row| !own(row.op)) else {
         return Ok(Met::Target(builders(site, act, code)));
     };
     let switched = matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
@@ -92,15 +146,25 @@ fn met(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Met, S
         let meaning = standard.op.meaning().trim().trim_end_matches('.');
         return Err(format!("{} cannot be {code} of the target, which is: {meaning}", site.code));
     }
+    let role = |letter: char| {
+        let role = target.role(letter, false, Some(standard));
+        role.ok_or_else(|| format!("{code} of the target takes no word {letter}"))
+    };
     let mut words = BTreeMap::new();
     for (letter, there) in &site.words {
         let wanted = if site.target.is_some() { there } else { letter };
-        let letter_there = wanted.chars().next().unwrap_or_default();
-        let role = target.role(letter_there, false, Some(standard));
-        let role = role.ok_or_else(|| format!("{code} of the target takes no word {wanted}"))?;
-        words.insert(letter.clone(), role);
+        words.insert(letter.clone(), role(wanted.chars().next().unwrap_or_default())?);
     }
-    let (op, fixed) = (standard.op, standard.fixed.clone());
+    let (op, mut fixed) = (standard.op, standard.fixed.clone());
+    for word in &beside {
+        // What tells the row apart says nothing more.
+        if standard.beside().is_some_and(|own| own.contains(word)) {
+            continue;
+        }
+        let value = number(word).ok_or_else(|| format!("{} of '{code}' has no number", word.letter))?;
+        let role = role(word.letter)?;
+        fixed.insert(role, target.canonical(Some(standard), role, value));
+    }
     Ok(Met::Source(CodeMeaning { op, fixed, words, ..site.row(None) }))
 }
 

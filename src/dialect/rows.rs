@@ -226,6 +226,10 @@ pub struct CodeMeaning {
     /// Other operations that are written as this code, where the control makes no difference.
     #[serde(default)]
     pub also: Vec<Op>,
+    /// Operations that it does besides, in the same instant: a builder's `M13` turns the spindle and switches coolant on. Such
+    /// a code is read, and never written.
+    #[serde(skip_deserializing)]
+    pub with: Vec<Op>,
     /// Operands that the code itself fixes: `G55` selects work offset 2.
     #[serde(default)]
     pub fixed: BTreeMap<Role, f64>,

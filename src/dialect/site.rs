@@ -18,6 +18,9 @@ pub struct SiteCode {
     /// What it does in common terms; absent for what only builders' codes do.
     #[serde(default)]
     pub op: Option<Op>,
+    /// What it does besides, at the same time: spindle and coolant alone.
+    #[serde(default)]
+    pub with: Vec<Op>,
     /// What it does, in words; empty where nobody said it.
     #[serde(default)]
     pub text: String,
@@ -121,6 +124,7 @@ impl SiteCode {
         CodeMeaning {
             code: self.code.clone(),
             also: Vec::new(),
+            with: self.with.clone(),
             op,
             fixed,
             words,
@@ -132,7 +136,7 @@ impl SiteCode {
             modal: None,
             machine: None,
             when: None,
-            preferred: self.preferred,
+            preferred: self.preferred && self.with.is_empty(),
             option: None,
             origin,
         }

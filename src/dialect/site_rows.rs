@@ -74,6 +74,7 @@ impl Overlay {
             let help = "write fixed = { \"output.bit\" = 24 }: the number that programs of the other control know it by";
             self.site_fault(site, message, help);
         }
+        self.check_with(site);
         self.check_answers(site);
         self.check_words(site, row);
         if site.op.is_none() && site.calls.is_none() {
@@ -81,6 +82,22 @@ impl Overlay {
         }
         if site.op.is_none() {
             self.check_standard(site, row, dialect);
+        }
+    }
+
+    /// What a code does besides.
+    fn check_with(&mut self, site: &SiteCode) {
+        let Some(first) = site.with.first() else { return };
+        let all = || site.op.iter().chain(&site.with);
+        let twice = site.with.iter().any(|op| all().filter(|other| other.group() == op.group()).count() > 1);
+        if site.op.is_none() {
+            let message = format!("{} does '{first}' with something that is not said", site.code);
+            self.site_fault(site, message, "write op = \"spindle.cw\" beside it: what the code does first");
+        } else if let Some(odd) = all().find(|op| !can_stand_together(**op)) {
+            let message = format!("'{odd}' cannot be done together with something else");
+            self.site_fault(site, message, "beside 'with' there are operations of spindle and coolant alone");
+        } else if twice {
+            self.site_fault(site, format!("{} switches one thing twice", site.code), "name each once");
         }
     }
 
@@ -106,9 +123,9 @@ impl Overlay {
             self.site_fault(site, format!("'{name}' is not a name"), help);
         }
         if let Some(target) = &site.target
-            && (CodeMeaning { code: target.clone(), ..site.row(None) }).head().is_none()
+            && !is_code(&CodeMeaning { code: target.clone(), ..site.row(None) })
         {
-            let help = "name the code of the other machine: target = \"M88\"";
+            let help = "name the code of the other machine, with the words that it always has: target = \"M88\", \"M19 P90\", \"M3 M8\"";
             self.site_fault(site, format!("'{target}' is not a code"), help);
         }
         if site.calls.is_some() && (site.op.is_some() || named) {
@@ -287,4 +304,14 @@ impl Without {
             Without::Alarm => "alarm",
         }
     }
+}
+
+/// True for an operation that one code may do together with another: what turns the spindle, and what switches coolant.
+pub(super) fn can_stand_together(op: Op) -> bool {
+    matches!(op.group(), Group::Spindle | Group::Coolant) && op != Op::SpindleOrient
+}
+
+/// True for a code that is spelled right, with the words beside it.
+fn is_code(row: &CodeMeaning) -> bool {
+    row.head().is_some() && row.beside().is_some()
 }

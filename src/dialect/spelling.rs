@@ -48,7 +48,7 @@ impl CodeHead {
         f64::from(self.thousandths) / 1000.0
     }
 
-    fn read(word: &str) -> Option<Self> {
+    pub(super) fn read(word: &str) -> Option<Self> {
         let (letter, number) = split(word)?;
         Self::new(letter, number?)
     }
@@ -86,6 +86,11 @@ impl CodeMeaning {
                 Some(Beside { letter, thousandths })
             })
             .collect()
+    }
+
+    /// True for codes that do the same with the same operands of their own.
+    pub fn does_the_same(&self, other: &Self) -> bool {
+        (self.op, &self.with, &self.fixed) == (other.op, &other.with, &other.fixed)
     }
 
     /// True where a word beside the code has the role.

@@ -138,6 +138,7 @@ fn site(code: &str, words: &[char], op: Option<Op>) -> SiteCode {
         code: code.to_owned(),
         name: None,
         op,
+        with: Vec::new(),
         text: code.to_owned(),
         fixed: BTreeMap::new(),
         words: words.iter().map(|letter| (letter.to_string(), letter.to_string())).collect(),

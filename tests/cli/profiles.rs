@@ -53,8 +53,7 @@ fn a_profile_extends_another() {
         site("M14", "alarm"),
         site("M15", "omit")
     );
-    let own =
-        format!("extends = \"shop/base.toml\"\nhead = false\nunits = \"mm\"\n{}", site("M14", "omit"));
+    let own = format!("extends = \"shop/base.toml\"\nhead = false\nunits = \"mm\"\n{}", site("M14", "omit"));
     let shop = Shop::with(&[("a.nc", &program), ("m/shop/base.toml", &base), ("m/own.toml", &own)]);
     let run = shop.run("convert a.nc --from fanuc --to haas --machine m/own.toml");
     assert_eq!(run.code, 0, "{}", run.err);

@@ -144,6 +144,7 @@ impl<'c> Runner<'c> {
                 command.own_code = Some(row.code.clone());
             }
             command.ops.push(row.op);
+            command.ops.extend_from_slice(&row.with);
             // Words of the straight feed mean something by it: corners.
             let straight = row.op == Op::Linear && !row.words.is_empty();
             if row.op.is_cycle() || row.op.is_pass() || straight {

@@ -330,8 +330,7 @@ pub(in crate::legalize) fn is_same(letter: char, number: f64, source: &Control, 
     let unnamed = |op: Op| {
         matches!(op, Op::Builder | Op::MachineSpecific | Op::CycleOther | Op::ProbeOther | Op::PlaneOther)
     };
-    here.zip(there)
-        .is_some_and(|(here, there)| here.op == there.op && here.fixed == there.fixed && !unnamed(here.op))
+    here.zip(there).is_some_and(|(here, there)| here.does_the_same(there) && !unnamed(here.op))
 }
 
 /// The codes of a letter that mean the same on both controls.

@@ -205,6 +205,7 @@ fn choice(
         || row.op == Op::LimitLookahead
         || (words && !row.words.is_empty())
         || nc.ops().any(clashes)
+        || !row.with.is_empty() && nc.ops().any(|op| row.with.iter().any(|with| with.group() == op.group()))
         || nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if row.fixed.contains_key(role)));
     if odd {
         return None;
@@ -222,7 +223,8 @@ fn choice(
     };
     let fixed =
         row.fixed.iter().map(|(role, value): (&Role, &f64)| NcItem::Word(*role, Expr::Number(*value)));
-    let items: Vec<NcItem> = std::iter::once(head).chain(fixed).collect();
+    let with = row.with.iter().map(|op| NcItem::Op(*op));
+    let items: Vec<NcItem> = std::iter::once(head).chain(with).chain(fixed).collect();
     Some(Choice { number, items: (!ends).then_some(items), rewinds: row.op == Op::EndRewind })
 }
 

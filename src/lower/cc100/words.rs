@@ -57,7 +57,9 @@ impl<'a> Lowering<'a> {
                     plan.flow = plan.flow.or(flow);
                 }
                 Meaning::Code(row, _) => {
-                    self.add(&mut nc, NcItem::Op(row.op), *span);
+                    for op in std::iter::once(row.op).chain(row.with.iter().copied()) {
+                        self.add(&mut nc, NcItem::Op(op), *span);
+                    }
                     for (role, value) in &row.fixed {
                         self.add(&mut nc, NcItem::Word(*role, Expr::Number(*value)), *span);
                     }

@@ -245,6 +245,7 @@ impl<'b> Lowering<'b> {
             _ => {}
         }
         reading.items.push(NcItem::Op(row.op));
+        reading.items.extend(row.with.iter().map(|op| NcItem::Op(*op)));
         reading.items.extend(row.fixed.iter().map(|(role, value)| NcItem::Word(*role, Expr::Number(*value))));
         Some(())
     }

@@ -218,6 +218,7 @@ impl<'a> Lowering<'a> {
             }
         } else {
             nc.items.push(NcItem::Op(row.op));
+            nc.items.extend(row.with.iter().map(|op| NcItem::Op(*op)));
         }
         for (role, value) in &row.fixed {
             if seen.role(*role) && *role != Role::Act {
