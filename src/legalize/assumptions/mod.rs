@@ -3,5 +3,6 @@
 pub(in crate::legalize) mod barred;
 pub(in crate::legalize) mod changes;
 pub(in crate::legalize) mod facts;
+pub(in crate::legalize) mod machine_places;
 pub(in crate::legalize) mod runtime;
 pub(in crate::legalize) mod shop;

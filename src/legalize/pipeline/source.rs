@@ -3,7 +3,7 @@
 use super::Pass;
 use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
-use crate::legalize::assumptions::{changes, facts, runtime, shop};
+use crate::legalize::assumptions::{changes, facts, machine_places, runtime, shop};
 use crate::legalize::cycles::{
     cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, stored_places,
 };
@@ -95,6 +95,12 @@ pub(super) const SOURCE: &[Pass] = &[
     NAMED_LENGTHS,
     Pass::reports("shop-facts", "reports what parameters of the machines decide", shop::run)
         .when(shop::concerns),
+    Pass::reports(
+        "machine-places",
+        "asks of the target whether places in machine coordinates suit it",
+        machine_places::run,
+    )
+    .when(machine_places::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
         .when(changes::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)

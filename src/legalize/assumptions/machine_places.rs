@@ -1,0 +1,114 @@
+//! Places in machine coordinates, which are places of the old machine.
+//!
+//! Nothing is changed. A move in machine coordinates, and a work offset that a program writes as numbers, name places that hang on
+//! where the machine has its zero, how far it goes, and what stands on its table. The words are the same on the target, and the
+//! place is not. It is asked once of the target. Side conditions: zero of an axis is the reference position, where both controls are
+//! of one family; of Z it is so on all. What is read from the machine (a position, an offset that was saved) is the target's own.
+//! Counter-example: `G53 X-300.`, which is past the end of a smaller machine.
+
+use crate::canon::{Group, Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Question, Side};
+use crate::ir::{Expr, Module, Nc, NcItem, Place, StmtKind, Var};
+use crate::legalize::features::{Feature, Features};
+use crate::legalize::{Context, Modal};
+use std::collections::HashMap;
+
+const QUESTION: Question = Question::MachinePlaces;
+
+/// True if a program may name such a place, between machines of which nobody says that they have the same ones.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let names = [Op::MachineOnce, Op::ShiftCancel, Op::WriteWork].iter().any(|op| features.op(*op));
+    (names || features.has(Feature::System))
+        && !context.source.is_same_machine(context.target)
+        && context.target.behaviour(QUESTION).is_none_or(|row| row.value != "same")
+}
+
+/// Asks of the target what its places are, where programs name some.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    let numbers = Numbers::of(module);
+    let one_family = context.source.dialect().family == context.target.dialect().family;
+    // Under G91 the words are a way on some machines.
+    let in_steps = context.source.behaviour(Question::MachineUnderIncremental);
+    let in_steps = in_steps.is_some_and(|row| row.value == "increments");
+    let other = context.target.behaviour(QUESTION).is_some_and(|row| row.value == "other");
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                state.step(stmt);
+                let names = match &stmt.kind {
+                    StmtKind::Nc(nc) => of_block(nc, &state, &numbers, (one_family, in_steps)),
+                    StmtKind::Assign { target: Place::System(Sys::WorkOffset, _), value } => {
+                        numbers.is_place(None, value, one_family)
+                    }
+                    _ => false,
+                };
+                if names && other {
+                    let what = "this is a place in machine coordinates of the old machine: write the place of the new one into the \
+                                conversion";
+                    context.add(index, Diagnostic::new(Code::Conditional, stmt.site.span, what));
+                } else if names {
+                    let what = QUESTION.meaning();
+                    context.unconfirmed(index, Side::Target, stmt.site.span, QUESTION.fact(), what);
+                }
+            }
+        }
+    }
+}
+
+/// True if a block names such a place; `state` is what is in force in it.
+fn of_block(nc: &Nc, state: &Modal, numbers: &Numbers, (one_family, in_steps): (bool, bool)) -> bool {
+    let steps = state.op(Group::Distance) == Some(Op::Incremental);
+    let shiftless = state.op(Group::WorkOffset) == Some(Op::ShiftCancel) && nc.moves();
+    let once = nc.has(Op::MachineOnce) && !(steps && in_steps);
+    let counts = once || !steps && (shiftless || nc.has(Op::WriteWork));
+    // A shift of all work offsets is no place.
+    let shift =
+        nc.has(Op::WriteWork) && nc.word(Role::OffsetRow).is_some_and(|row| row.constant() == Some(0.0));
+    let returns = nc.has(Op::ReferenceReturn) || nc.has(Op::Reference2);
+    counts
+        && !shift
+        && !returns
+        && nc.items.iter().any(|item| match item {
+            NcItem::Word(role, value) if role.is_axis() && !role.is_step() => {
+                numbers.is_place(Some(*role), value, one_family)
+            }
+            _ => false,
+        })
+}
+
+/// The variables that hold numbers of the programs, and nothing that was read from the machine.
+struct Numbers(HashMap<Var, bool>);
+
+impl Numbers {
+    fn of(module: &Module) -> Self {
+        let mut all = HashMap::new();
+        for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts)
+        {
+            if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind {
+                *all.entry(*var).or_insert(true) &= value.constant().is_some();
+            }
+        }
+        Self(all)
+    }
+
+    /// True for a value that is a place of the old machine.
+    fn is_place(&self, axis: Option<Role>, value: &Expr, one_family: bool) -> bool {
+        match value.constant() {
+            Some(number) => number != 0.0 || axis.is_some_and(|role| role != Role::Z) && !one_family,
+            None => {
+                let mut own = true;
+                value.walk(&mut |part| {
+                    own &= match part {
+                        Expr::Var(var) => self.0.get(var).copied().unwrap_or(axis.is_some()),
+                        Expr::System(..) | Expr::Indirect(..) => false,
+                        _ => true,
+                    };
+                });
+                own
+            }
+        }
+    }
+}
