@@ -5,10 +5,12 @@
 //! finds what it began itself.
 
 use super::block_calls::calls_of;
+use crate::canon::{Group, Op};
 use crate::ir::analysis::dataflow::{Analysis, Direction, Flow, Lattice, solve};
-use crate::ir::analysis::{CallGraph, Cfg};
+use crate::ir::analysis::{CallGraph, Cfg, reachable};
 use crate::ir::{Block, BlockId, Call, Callee, Module, Program, Stmt, StmtKind, TermKind};
 use crate::syntax::ProgramName;
+use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Calls `found` with every statement, by program, that may come after one that `sets` and before one that `ends`.
@@ -30,6 +32,20 @@ pub fn behind_or_entered(
     found: impl FnMut(usize, &Stmt),
 ) {
     walk(module, true, sets, ends, found);
+}
+
+/// The places, by program, that may come in another plane than that of X and Y: after a code of another one, and before one of that
+/// plane. Machines begin in the plane of X and Y, and programs that stand in a machine leave it.
+pub fn in_other_planes(module: &Module) -> BTreeSet<(usize, Span)> {
+    let has = |stmt: &Stmt, is: &dyn Fn(Op) -> bool| stmt.kind.nc().is_some_and(|nc| nc.ops().any(is));
+    let sets = |stmt: &Stmt| has(stmt, &|op| op.group() == Group::Plane && op != Op::PlaneXy);
+    // One that is skipped ends nothing.
+    let ends = |stmt: &Stmt| stmt.site.skip.is_none() && has(stmt, &|op| op == Op::PlaneXy);
+    let mut found = BTreeSet::new();
+    behind_or_entered(module, sets, ends, |index, stmt| {
+        found.insert((index, stmt.site.span));
+    });
+    found
 }
 
 fn walk(
@@ -151,7 +167,7 @@ impl<'m> Library<'m> {
         let called = if entered { self.called(module) } else { BTreeSet::new() };
         // Each program comes twice at the most: as it is, and where it is entered so.
         for (index, program) in module.programs.iter().enumerate() {
-            entries.flow(index, &(entered && program.returns() && !called.contains(&index)));
+            entries.flow(index, &(entered && returns(program) && !called.contains(&index)));
         }
         while let Some(index) = entries.pop() {
             let Some(program) = module.programs.get(index) else { continue };
@@ -175,8 +191,8 @@ impl<'m> Library<'m> {
                         Callees::Own | Callees::Outside => {}
                         // One that ends the run is no subprogram.
                         Callees::Any => {
-                            let returns = |at: &usize| module.programs[*at].returns();
-                            (0..count).filter(returns).for_each(&mut enter);
+                            let sub = |at: &usize| returns(&module.programs[*at]);
+                            (0..count).filter(sub).for_each(&mut enter);
                         }
                         Callees::These(callees) => callees.iter().copied().for_each(&mut enter),
                     }
@@ -243,4 +259,10 @@ enum Callees<'a> {
     Outside,
     /// These programs.
     These(&'a [usize]),
+}
+
+/// True for a program that may return to a caller, and not from a subroutine of its own alone.
+fn returns(program: &Program) -> bool {
+    let own = reachable(program, BlockId(0)).into_iter().filter_map(|id| program.block(id));
+    own.into_iter().any(|block| matches!(block.term.kind, TermKind::Return { .. }))
 }

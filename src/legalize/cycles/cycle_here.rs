@@ -14,6 +14,7 @@
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
+use crate::ir::analysis::behind::in_other_planes;
 use crate::ir::analysis::programmed::Programmed;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use crate::legalize::Context;
@@ -65,12 +66,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let has = |state| context.target.system_runs(state).next().is_some();
     let stands = [Sys::EndPosition, Sys::WorkPosition].into_iter().find(|state| has(*state));
     let summaries = context.summaries(module);
-    let other_planes = module
-        .programs
-        .iter()
-        .flat_map(|p| &p.blocks)
-        .flat_map(|b| &b.stmts)
-        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::PlaneZx) || nc.has(Op::PlaneYz)));
+    let turned = in_other_planes(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let named = Programmed::of(program, &summaries, &|id| facts.at(index, id));
         for (at, block) in program.blocks.iter_mut().enumerate() {
@@ -108,7 +104,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     let words = named.as_ref().and_then(Programmed::words);
                     words.filter(|_| across[0].0 == Role::X && !beside)
                 };
-                if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
+                if asked && !placed && state.op(Group::Plane).is_none() && turned.contains(&(index, span)) {
                     let what = "the plane is not known here, so neither is the axis that the cycle drills along: \
                          write G17, G18 or G19 before it";
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));

@@ -8,6 +8,7 @@
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Behaviour, Control, Machine, Question, Row, Side};
+use crate::ir::analysis::behind::in_other_planes;
 use crate::ir::{Module, Nc};
 use crate::legalize::cycles::hole_moves;
 use crate::legalize::features::Features;
@@ -34,10 +35,12 @@ fn as_moves(target: &Control) -> bool {
 
 /// Reports cycles in other planes.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let facts = context.modal_facts(module);
+    let (facts, turned) = (context.modal_facts(module), in_other_planes(module));
     facts.each(module, &mut |index, stmt, _, after| {
         let plane = after.op(Group::Plane);
-        if plane != Some(Op::PlaneXy) && stmt.kind.nc().is_some_and(|nc| drills(nc, after)) {
+        // A way that names no plane is in that of X and Y, in which machines begin.
+        let is_flat = plane.is_none() && !turned.contains(&(index, stmt.site.span));
+        if plane != Some(Op::PlaneXy) && !is_flat && stmt.kind.nc().is_some_and(|nc| drills(nc, after)) {
             report(context, index, stmt.site.span, plane.is_some());
         }
     });

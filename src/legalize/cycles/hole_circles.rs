@@ -2,19 +2,22 @@
 //!
 //! Law: such a block runs the drilling cycle in force at places round the place where the tool stands, or from there on along a line; so
 //! do blocks with these places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
-//! place is known from absolute words before, the same on every way, or the block names the centre of a circle, the plane is that of X and Y (or the library names no plane),
+//! place is known from absolute words before, the same on every way, or the block names the centre of a circle, the plane is that of X and Y (or no block that may come before names another),
 //! coordinates are absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
+use crate::ir::analysis::behind::in_other_planes;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
 use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::moves::increments::parts_of_unit;
 use crate::legalize::moves::short_arcs::stands;
 use crate::legalize::{Context, Modal, ModalFacts};
+use crate::text::Span;
+use std::collections::BTreeSet;
 
 /// More holes than this are a slip.
 const MOST: f64 = 1000.0;
@@ -32,9 +35,7 @@ fn is_pattern(op: Op) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
     context.count(module);
-    // Machines begin in the plane of X and Y.
-    let other = |op: Op| op.group() == Group::Plane && op != Op::PlaneXy;
-    let flat = !context.features.any_op(other);
+    let turned = in_other_planes(module);
     let comes_back = context.summaries(module).come_back();
     let mut changed = false;
     for index in 0..module.programs.len() {
@@ -42,7 +43,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             continue;
         }
         let program = &mut module.programs[index];
-        let rules = Rules { index, facts: &facts, comes_back, sides: (context.source, flat) };
+        let rules = Rules { index, facts: &facts, comes_back, source: context.source, turned: &turned };
         let places = solve(&rules, program, &Cfg::of(program));
         for (id, block) in program.ids().zip(&mut program.blocks) {
             let mut state = facts.at(index, id);
@@ -57,7 +58,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     continue;
                 }
                 changed = true;
-                match holes(&stmt, &state, place, rules.sides) {
+                match holes(&stmt, &state, place, &rules) {
                     Ok(holes) => {
                         if stmt.kind.nc().is_some_and(Nc::names_axis) {
                             let told = Diagnostic::new(Code::Conditional, stmt.site.span, CENTRE);
@@ -101,7 +102,9 @@ struct Rules<'r> {
     facts: &'r ModalFacts,
     /// True where a call may come back at any label.
     comes_back: bool,
-    sides: (&'r Control, bool),
+    source: &'r Control,
+    /// The places that may come in another plane than that of X and Y.
+    turned: &'r BTreeSet<(usize, Span)>,
 }
 
 impl Analysis for Rules<'_> {
@@ -118,7 +121,7 @@ impl Analysis for Rules<'_> {
         for stmt in &block.stmts {
             state.step(stmt);
             if stmt.kind.nc().is_some_and(|nc| nc.ops().any(is_pattern)) {
-                *place = holes(stmt, &state, *place, self.sides)
+                *place = holes(stmt, &state, *place, self)
                     .map_or_else(|_| Place::default(), |holes| place.after(&holes));
             } else {
                 place.step(stmt, &state);
@@ -176,12 +179,7 @@ impl Place {
 }
 
 /// The places of the holes; why not, where they cannot be told.
-fn holes(
-    stmt: &Stmt,
-    state: &Modal,
-    place: Place,
-    (source, flat): (&Control, bool),
-) -> Result<Vec<[f64; 2]>, &'static str> {
+fn holes(stmt: &Stmt, state: &Modal, place: Place, rules: &Rules<'_>) -> Result<Vec<[f64; 2]>, &'static str> {
     let StmtKind::Nc(nc) = &stmt.kind else { return Ok(Vec::new()) };
     let own = |item: &NcItem| match item {
         NcItem::Op(op) => is_pattern(*op),
@@ -221,6 +219,7 @@ fn holes(
         Some(_) => return Err("no drilling cycle is in force"),
         None => return Err("it is not known here which drilling cycle is in force"),
     }
+    let flat = !rules.turned.contains(&(rules.index, stmt.site.span));
     let plane = state.op(Group::Plane).or(flat.then_some(Op::PlaneXy));
     if plane != Some(Op::PlaneXy) || state.op(Group::Distance) != Some(Op::Absolute) {
         return Err("it is not known here that G17 and G90 are in force");
@@ -233,7 +232,7 @@ fn holes(
     let (Some(x), Some(y)) = (x, y) else {
         return Err("it is not known here where the tool stands: write X and Y as numbers before it");
     };
-    let parts = parts_of_unit(state, source);
+    let parts = parts_of_unit(state, rules.source);
     let parts = parts.ok_or("it is not known here whether lengths are inches or millimetres")?;
     // No minus before 0.
     let counted = |place: f64| (place * parts).round() / parts + 0.0;

@@ -12,7 +12,7 @@ mod path;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
-use crate::ir::analysis::behind::behind_or_entered;
+use crate::ir::analysis::behind::{behind_or_entered, in_other_planes};
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::features::Features;
 use crate::legalize::moves::increments::parts_of_unit;
@@ -44,9 +44,7 @@ pub fn concerns(features: &Features) -> bool {
 /// Writes the arcs out, and refuses what cannot be; true where a block was found.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    context.count(module);
-    let other = |op: Op| op.group() == Group::Plane && op != Op::PlaneXy;
-    let never_turned = !context.features.any_op(other);
+    let turned = in_other_planes(module);
     let [drills, shapes, compensates] = IN_THE_WAY.map(|(on, off)| after_one_of(module, on, off));
     let kept = |state| context.target.system_runs(state).next().is_some();
     let wears = [Sys::RadiusWear, Sys::DiameterWear, Sys::DiameterOrRadiusWear].into_iter().any(kept);
@@ -62,7 +60,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 state.step(stmt);
                 let is_after = |some: &BTreeSet<(usize, Span)>| some.contains(&(index, stmt.site.span));
                 let never = Never {
-                    turned: never_turned,
+                    turned: !is_after(&turned),
                     drills: !is_after(&drills),
                     shapes: !is_after(&shapes),
                     compensates: !is_after(&compensates),
