@@ -172,7 +172,7 @@ fn stored_place(context: &mut Context<'_>, index: usize, span: Span) {
 }
 
 const STANDS: &str = "the spindle stands here, and the source's cycle starts it by itself; the target's does not: write M3 or \
-     M4 before the cycle";
+     M4 with the speed into a block before the cycle, and before the code for rigid taps where there is one";
 
 /// What is known of the spindle at a place, on some way to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -279,7 +279,8 @@ fn turned_by_cycle(nc: &Nc, stands: bool, before: &Modal) -> bool {
     let says = nc.ops().any(|op| op.group() == Group::Spindle);
     let moves = nc.ops().any(|op| op.group() == Group::Motion);
     let stopped = before.op(Group::Spindle) == Some(Op::SpindleStop);
-    let stored = nc.word(Role::Repeat).and_then(Expr::constant) == Some(0.0);
+    // The holes of a stored tap may stand in a subprogram that drills with other tools too.
+    let stored = nc.word(Role::Repeat).and_then(Expr::constant) == Some(0.0) && !op.is_tap();
     let drills = begun.is_some() || !moves && !nc.has(Op::CycleOff) && goes_somewhere(nc, Some(before));
     drills && !stored && !says && (stands || stopped && op.is_tap()) && !op.is_live_tap()
 }
