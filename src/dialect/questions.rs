@@ -310,6 +310,7 @@ questions! {
     MChangeActs "m.change.acts" WHEN, "when a tool change acts, beside a move";
     MOtherActs "m.other.acts" WHEN, "when any other M code acts, beside a move";
     SActs "s.acts" WHEN, "when a new spindle speed acts, beside a move";
+    CoolantOffThrough "coolant.off.through" YES, "the code that ends coolant ends the coolant through the spindle too", if "said";
     StopEndsSpindle "stop.ends.spindle" YES, "a program stop stops the spindle, and the program has to start it again";
     StopEndsCoolant "stop.ends.coolant" YES, "a program stop switches coolant off, and the program has to switch it on again";
     MessageEndsSpindle "message.ends.spindle" YES, "a stop with a message, or a question, stops the spindle", if "statement:stop.message or statement:input";

@@ -106,6 +106,13 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
         Op::SpindleStop => Spindle::Stopped,
         Op::SpindleOrient => Spindle::Oriented,
         coolant => {
+            // The one through the spindle ends alone, or goes on alone.
+            let coolant = match coolant {
+                _ if machine.coolant != Op::ThroughSpindle => coolant,
+                Op::ThroughSpindleOff => Op::CoolantOff,
+                Op::CoolantOff if machine.rules.through_stays => Op::ThroughSpindle,
+                _ => coolant,
+            };
             machine.coolant = coolant;
             machine.says_running(Running::Coolant, trace);
             return trace.push(EventKind::Coolant { state: coolant });

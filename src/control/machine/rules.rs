@@ -82,6 +82,8 @@ pub struct Rules {
     pub taps_wait: bool,
     /// True if every tap is rigid.
     pub taps_rigid: bool,
+    /// True if the code that ends coolant leaves the one through the spindle on, as the profile says.
+    pub through_stays: bool,
     pub zero_repeats_stores: Fact<bool>,
     pub zero_repeats_moves: Fact<bool>,
     pub repeats_move: Fact<bool>,
@@ -241,6 +243,8 @@ impl Rules {
             zero_repeats_moves: yes(control, Question::CycleL0Moves, false),
             speed_kept: fact(control, Question::SpeedKept, word("mode", "turns"), true),
             taps_rigid: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always"),
+            through_stays: (control.behaviour(Question::CoolantOffThrough))
+                .is_some_and(|row| row.value == "false"),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
             finish_allowance: fact(

@@ -11,4 +11,5 @@ pub(in crate::legalize) mod machine_codes;
 pub(in crate::legalize) mod missing;
 pub(in crate::legalize) mod pauses;
 pub(in crate::legalize) mod substitutes;
+pub(in crate::legalize) mod through_coolant;
 pub(in crate::legalize) mod waits;

@@ -13,6 +13,7 @@ use crate::legalize::calls::{
 };
 use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
+    through_coolant,
 };
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
@@ -342,6 +343,12 @@ const CODES: &[Pass] = &[
         .when(formatted::concerns),
     Pass::each("substitutes", "operations become near relatives, for review", substitutes::run)
         .when(|c, _| substitutes::concerns(c)),
+    Pass::edits(
+        "through-coolant",
+        "coolant through the spindle is ended where the end of coolant leaves it on",
+        through_coolant::run,
+    )
+    .when(through_coolant::concerns),
     Pass::each("machine-codes", "a block has no more M codes than the target takes", machine_codes::run)
         .when(machine_codes::concerns)
         .needs(&["substitutes", "beside-moves", "pauses"]),
