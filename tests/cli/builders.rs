@@ -123,3 +123,22 @@ fn what_the_profile_leaves_out_sends_no_program_to_review() {
     assert!(told.contains("1 converted") && !told.contains("MG0802"), "{told}");
     assert!(told.contains("M14 (M14) is left out") && told.contains("M15 (M15) is a stop"), "{told}");
 }
+
+/// What comes after an alarm in the place of a code is run by nobody: if every run comes to it, nothing is known of the rest.
+#[test]
+fn an_alarm_that_every_run_comes_to_leaves_the_program_undecided() {
+    let head = "O1000\nG20 G17 G40 G49 G80 G90 G94\nG54 G0 X0 Y0\n";
+    let shop = Shop::with(&[
+        (
+            "fanuc.toml",
+            "dialect = \"fanuc\"\nunits = \"inch\"\n[codes]\nM50 = { do = \"alarm\", text = \"BAR FEED\" }\n",
+        ),
+        ("every.nc", &format!("%\n{head}M50\nG1 X1. F10.\nM30\n%\n")),
+        ("some.nc", &format!("%\n{head}IF [#500 GT 5] GOTO 10\nG1 X1. F10.\nM30\nN10 M50\nM30\n%\n")),
+    ]);
+    let run = shop.run("convert every.nc --from fanuc --to haas --machine fanuc.toml");
+    let wanted = "every run comes to it: M50 (BAR FEED) is an alarm on the target";
+    assert!(run.err.contains(wanted) && run.err.contains("MG0802"), "{}", run.err);
+    let run = shop.run("convert some.nc --from fanuc --to haas --machine fanuc.toml");
+    assert!(run.err.contains("1 converted") && !run.err.contains("MG0802"), "{}", run.err);
+}

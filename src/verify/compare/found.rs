@@ -19,8 +19,8 @@ pub struct Comparison<'r> {
     pub substituted: BTreeSet<String>,
     /// The same of operations that the target has not, which the conversion may have told.
     pub replaced: BTreeSet<(Op, String)>,
-    /// True where the target stops for good in the place of a builder's code, as the source's profile wants it.
-    pub stopped: bool,
+    /// What the target stops for good for: a builder's code, in whose place the source's profile wants an alarm.
+    pub stopped: Option<String>,
 }
 
 /// A difference: the events that should be the same, where there are any, and what is wrong.

@@ -50,7 +50,7 @@ pub fn compare<'r>(
         let blocks = blocks.unwrap_or_default().map(|event| event.map(|event| event.at));
         Found { pairs: what.difference.is_some().then_some(far), blocks, what }
     });
-    if found.difference.is_some() || cut || found.stopped {
+    if found.difference.is_some() || cut || found.stopped.is_some() {
         return found;
     }
     let left = left_differs(source, target, tolerance, &mut found.substituted, &mut found.replaced);
@@ -161,7 +161,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
                         self.moved(0, a);
                         self.moved(1, b);
                         (i, j) = (i + 1, j + 1);
-                        if self.found.stopped {
+                        if self.found.stopped.is_some() {
                             return (i, j);
                         }
                         continue;
@@ -345,8 +345,10 @@ impl<'p, 'r> Pairs<'p, 'r> {
             return Some("a message stands for a stop".to_owned());
         }
         if let Some((ends, text)) = builders::stands_for(self.source, self.target, (a, b)) {
+            if ends {
+                self.found.stopped = Some(text.clone());
+            }
             self.found.replaced.insert((Op::Act, text));
-            self.found.stopped |= ends;
             return None;
         }
         let on = self.runs[0].goes_on(a) && self.runs[1].goes_on(b);

@@ -145,6 +145,12 @@ impl Verifier<'_, '_> {
             );
             self.because(Why::SourceAlarms, &text);
         }
+        if let (count, Some(what)) = std::mem::take(&mut self.cut_short)
+            && count >= self.compared
+        {
+            let text = format!("every run comes to it: {what}. What comes after is not compared");
+            self.because(Why::NoRunKept, &text);
+        }
         if self.compared == 0 {
             for text in std::mem::take(&mut self.endless) {
                 self.because(Why::Endless, &text);

@@ -62,6 +62,10 @@ impl Verifier<'_, '_> {
         let found = compare((source, run), (target, &other), names, self.tolerance);
         self.largest = self.largest.max(found.largest);
         self.texts.extend(found.texts);
+        if let Some(text) = found.stopped {
+            self.cut_short.0 += 1;
+            self.cut_short.1.get_or_insert(text);
+        }
         let told = told_substitutes(self.job, run);
         let replaced = found.replaced.into_iter().filter(|(op, _)| !told.contains(op)).map(|(_, text)| text);
         for text in found.substituted.into_iter().chain(replaced) {

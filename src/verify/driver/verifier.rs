@@ -60,6 +60,8 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) endless: BTreeSet<String>,
     /// The first alarm by which the control itself stopped a run of the source.
     pub(super) stopped: Option<String>,
+    /// How many runs came to an alarm that stands for a code, and what it stands for.
+    pub(super) cut_short: (usize, Option<String>),
     pub(super) sensitive: Option<bool>,
     pub(super) witness: Option<Witness>,
     /// Where the witness was.
@@ -108,6 +110,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             edits: Vec::new(),
             endless: BTreeSet::new(),
             stopped: None,
+            cut_short: (0, None),
             sensitive: None,
             witness: None,
             shown: Shown::default(),
