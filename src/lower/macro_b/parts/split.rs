@@ -29,13 +29,16 @@ pub fn split(parsed: &ParsedFile<'_>) -> (Vec<Piece>, bool) {
     let mut tape = false;
     let mut pending: Vec<usize> = Vec::new();
     for (index, block) in parsed.blocks.iter().enumerate() {
-        if block.items.first().is_some_and(|item| matches!(item.kind, ItemKind::Tape)) {
-            tape = true;
-            open = false;
-        } else if let Some(name) = program(block) {
+        // Files that controls punch have the O word of their first program right after the sign, `%O1234`.
+        let is_tape = block.items.first().is_some_and(|item| matches!(item.kind, ItemKind::Tape));
+        tape |= is_tape;
+        open &= !is_tape;
+        if let Some(name) = program(block) {
             let leading = std::mem::take(&mut pending);
             pieces.push(Piece { name: Some(name), head: Some(index), leading, body: index..index + 1 });
             open = true;
+        } else if is_tape {
+            continue;
         } else if open {
             if let Some(piece) = pieces.last_mut() {
                 piece.body.end = index + 1;
