@@ -125,13 +125,18 @@ fn moves(nc: &Nc, before: &Modal, source: &Control, target: &Control) -> Result<
         return Err(Stays(UNIT, UNIT_HELP, Vec::new()));
     }
     let stays = in_steps || no_way && axes.iter().all(|(role, _)| role.is_step());
-    let mut out = Vec::new();
-    if !stays {
-        let words = axes.iter().map(|(role, value)| NcItem::Word(*role, value.clone()));
-        out.push(std::iter::once(NcItem::Op(Op::Rapid)).chain(words).collect());
-    }
     let mut home: Vec<NcItem> = nc.items.iter().filter(|item| axis(item).is_none()).cloned().collect();
     home.retain(|item| !matches!(item, NcItem::Word(Role::ReferencePoint, _)));
+    let mut out = Vec::new();
+    if !stays {
+        // A mode beside the code counts for the place on the way.
+        let is_mode = |item: &NcItem| matches!(item, NcItem::Op(Op::Absolute | Op::Incremental));
+        let (mut way, rest): (Vec<NcItem>, Vec<NcItem>) = home.into_iter().partition(is_mode);
+        home = rest;
+        way.push(NcItem::Op(Op::Rapid));
+        way.extend(axes.iter().map(|(role, value)| NcItem::Word(*role, value.clone())));
+        out.push(way);
+    }
     for item in &mut home {
         if *item == NcItem::Op(Op::Reference2) {
             *item = NcItem::Op(Op::MachineOnce);
