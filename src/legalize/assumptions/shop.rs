@@ -131,6 +131,7 @@ fn rotary(nc: &Nc, after: &Modal, from: &Places, (index, span): (usize, Span), c
             // The angles are written as the other control turns.
             [true, false] => context.rests_on_target(index, span, Question::RotaryWay),
             [false, true] => context.rests_on_source(index, span, Question::RotaryWay),
+            _ if Way::differ(context.source, context.target) => {}
             _ => rests(Question::RotaryWay, index, span, context),
         }
         open_way(index, span, context);

@@ -40,6 +40,16 @@ impl Way {
         }
     }
 
+    /// True between two controls whose angles are written anew: one of the two goes by the sign, or the source is known to turn back by
+    /// all turns and the target to take the shorter way. Of a source that takes the shorter way each angle past half a turn is refused.
+    pub(in crate::legalize) fn differ(source: &Control, target: &Control) -> bool {
+        let is = |control: &Control, way: &str| {
+            control.behaviour(Question::RotaryWay).is_some_and(|row| row.value == way)
+        };
+        let by_sign = [source, target].map(|control| Self::of(control) == Self::Sign);
+        by_sign[0] != by_sign[1] || is(source, "turns") && is(target, "shortest")
+    }
+
     /// How far an axis turns from a place by a word, in the same parts of a degree; none where that is not known.
     pub(in crate::legalize) fn turn(self, from: i64, word: f64) -> Option<i64> {
         let ahead = (parts(word.abs()) - from).rem_euclid(TURN);

@@ -1,16 +1,16 @@
-//! Angles of rotary axes, where the sign of an angle is the way of its axis on one of the two controls.
+//! Angles of rotary axes, where the two controls go to an angle by two ways: what was turned, the shorter one, or that of the sign.
 //!
 //! Law: an axis turns by as much as it turned by, and the same way. On a control of signs an absolute word is a place within one
 //! turn, and its sign the way there; elsewhere it is what the axis has turned by, or the shorter way is taken. Side conditions:
 //! where the axis stands before is known from the text, and the angle is a number; less than a whole turn; less than half of one
 //! where the shorter way is taken. What is in increments stays. Where how many whole turns were made before is not known, but how
-//! far it turns is, the target turns by that in increments, if the block moves nothing else. Counter-example: `A360.` after `A0.`,
-//! a whole turn, which no place with a sign says.
+//! far it turns is, and where the shorter way is another, the target turns by that in increments, if the block moves nothing else.
+//! Counter-example: `A360.` after `A0.`, a whole turn, which no place with a sign says.
 
 use super::rotary_places::{AXES, Places, RotaryPlaces, Stands, TURN, Way, degrees, is_aside, parts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Side};
+use crate::dialect::Question;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::assumptions::shop::are_mills;
 use crate::legalize::features::Features;
@@ -18,10 +18,11 @@ use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
-/// True between two mills of which one alone goes by the sign, if rotary axes move.
+/// True between two mills that go to an angle by two ways, if rotary axes move.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let by_sign = [context.source, context.target].map(|control| Way::of(control) == Way::Sign);
-    by_sign[0] != by_sign[1] && are_mills(context) && AXES.iter().any(|role| features.role(*role))
+    Way::differ(context.source, context.target)
+        && are_mills(context)
+        && AXES.iter().any(|role| features.role(*role))
 }
 
 /// Writes the angles; true if one is another.
@@ -42,12 +43,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 here.step(&stmt, (&before, &state), ways.0, source);
                 let span = stmt.site.span;
                 let aside = is_alone(&stmt, &state, context).then(|| back(span));
+                let kind = match aside {
+                    Some(_) => Kind::Alone,
+                    None if is_rapid(&stmt, &state) => Kind::Rapid,
+                    None => Kind::Other,
+                };
                 let mut after = None;
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
                     match state.op(Group::Distance) {
                         Some(Op::Incremental) => {}
                         Some(_) => {
-                            let done = angles(nc, &from, ways, ((index, span), aside.is_some()), context);
+                            let done = angles(nc, &from, ways, ((index, span), kind), context);
                             changed |= done != Done::Nothing;
                             after = aside.filter(|_| done == Done::Turns);
                         }
@@ -63,6 +69,23 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     changed
 }
 
+/// What a block does besides turning an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    /// It moves nothing else.
+    Alone,
+    /// It goes somewhere at rapid.
+    Rapid,
+    /// Anything.
+    Other,
+}
+
+/// True for a move at rapid that drills nothing.
+fn is_rapid(stmt: &Stmt, state: &Modal) -> bool {
+    let rapid = state.op(Group::Motion) == Some(Op::Rapid) && state.op(Group::Cycle) == Some(Op::CycleOff);
+    rapid && !state.may_call() && stmt.kind.nc().is_some_and(Nc::moves)
+}
+
 /// What was done to a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Done {
@@ -73,15 +96,15 @@ enum Done {
     Turns,
 }
 
-/// True for a block that turns one axis and does nothing else.
+/// True for a block that turns one axis and moves nothing else.
 fn is_alone(stmt: &Stmt, state: &Modal, context: &Context<'_>) -> bool {
     let Some(nc) = stmt.kind.nc() else { return false };
     let mut axes = 0;
     let plain = nc.items.iter().all(|item| match item {
-        NcItem::Op(op) => matches!(op, Op::Rapid | Op::Linear),
+        NcItem::Op(op) => matches!(op, Op::Rapid | Op::Linear | Op::Absolute | Op::SelectWork),
         NcItem::Word(role, _) => {
             axes += usize::from(AXES.contains(role));
-            AXES.contains(role) || *role == Role::Feed
+            AXES.contains(role) || matches!(role, Role::Feed | Role::WorkOffset)
         }
         NcItem::Code(..) => false,
     });
@@ -112,7 +135,7 @@ fn angles(
     nc: &mut Nc,
     from: &Places,
     (ours, theirs): (Way, Way),
-    (place, alone): ((usize, Span), bool),
+    (place, kind): ((usize, Span), Kind),
     context: &mut Context<'_>,
 ) -> Done {
     if nc.has(Op::MachineOnce) && moves_axis(nc) {
@@ -131,9 +154,19 @@ fn angles(
         };
         let stands = from.of(axis);
         let written = match (written(stands, angle, ours, theirs), turned(stands, angle, ours)) {
-            (Err((UNKNOWN | TURNED, _)), Some(by)) if alone && theirs == Way::Turns => {
+            (Err((UNKNOWN | TURNED, _)), Some(by)) if kind == Kind::Alone && theirs == Way::Turns => {
                 done = Done::Turns;
                 by
+            }
+            (Err((HALF, _)), Some(by)) if kind == Kind::Alone => {
+                done = Done::Turns;
+                by
+            }
+            // The angle that it comes to is the same, and nothing is cut on the way.
+            (Err((HALF, _)), _) if kind == Kind::Rapid && ours == Way::Turns => {
+                let finding = Diagnostic::new(Code::Conditional, place.1, ROUND).asked_once();
+                context.add_once(place.0, ROUND, finding);
+                continue;
             }
             (Ok(written), _) => written,
             (Err((what, help)), _) => {
@@ -150,6 +183,7 @@ fn angles(
         }
     }
     if done == Done::Turns {
+        nc.items.retain(|item| *item != NcItem::Op(Op::Absolute));
         nc.items.insert(0, NcItem::Op(Op::Incremental));
     }
     done
@@ -203,10 +237,18 @@ fn rests((index, span): (usize, Span), context: &mut Context<'_>) {
 }
 
 fn refuse(what: &'static str, help: &'static str, (index, span): (usize, Span), context: &mut Context<'_>) {
-    let side = if Way::of(context.source) == Way::Sign { Side::Source } else { Side::Target };
-    let control: &Control = if side == Side::Source { context.source } else { context.target };
-    let text =
-        format!("{what}; on the {} the sign of an angle is the way of its axis", control.dialect().title);
+    let sides = [context.source, context.target];
+    let of =
+        |way| sides.iter().find(|control| Way::of(control) == way).map(|control| &control.dialect().title);
+    let text = match (of(Way::Sign), of(Way::Shortest)) {
+        (Some(control), _) => {
+            format!("{what}; on the {control} the sign of an angle is the way of its axis")
+        }
+        (_, Some(control)) => format!(
+            "{what}; on the {control} an axis takes the shorter way to an angle, and the other control turns it back by all turns"
+        ),
+        _ => what.to_owned(),
+    };
     context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, text).with_help(help));
 }
 
@@ -216,6 +258,8 @@ const COMPUTED: &str = "this angle is computed, and so the way that the rotary a
 const WHOLE: &str = "the rotary axis turns by a whole turn or more here";
 const EITHER: &str = "the rotary axis comes to this angle from both sides";
 const HALF: &str = "the rotary axis turns by half a turn or more here, and the target takes the shorter way";
+const ROUND: &str = "a rotary axis goes to its angle at rapid the other way round than on the source, where it turns back by all that it turned: make \
+     sure that nothing is in its way there, a hose or a line above all";
 const TURNED: &str = "how many turns the rotary axis has made before this angle is not known";
 const MODE: &str = "whether G90 or G91 is in force at this angle is not known";
 const MODE_HELP: &str = "write G90 or G91 before it";
