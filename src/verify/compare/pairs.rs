@@ -345,9 +345,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             return Some("a message stands for a stop".to_owned());
         }
         if let Some((ends, text)) = builders::stands_for(self.source, self.target, (a, b)) {
-            if ends {
-                self.found.stopped = Some(text.clone());
-            }
+            self.found.stopped = ends.then(|| text.clone());
             self.found.replaced.insert((Op::Act, text));
             return None;
         }
