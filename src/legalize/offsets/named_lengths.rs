@@ -24,7 +24,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (id, block) in program.ids().zip(&mut program.blocks) {
-            for (at, place) in named(block, facts.at(index, id)) {
+            for (at, place) in named(block, facts.at(index, id), context) {
                 let StmtKind::Nc(nc) = &mut block.stmts[at].kind else { continue };
                 nc.items.push(NcItem::Word(Role::Z, place));
                 changed = true;
@@ -35,7 +35,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 /// The statements whose codes move, and the places.
-fn named(block: &Block, mut state: Modal) -> Vec<(usize, Expr)> {
+fn named(block: &Block, mut state: Modal, context: &Context<'_>) -> Vec<(usize, Expr)> {
     let mut found = Vec::new();
     let mut here: Option<Expr> = None;
     for (at, stmt) in block.stmts.iter().enumerate() {
@@ -43,7 +43,10 @@ fn named(block: &Block, mut state: Modal) -> Vec<(usize, Expr)> {
         state.step(stmt);
         let sure = stmt.site.skip.is_none();
         let moves = |nc: &&Nc| {
-            sure && moves_by_code(nc, &before) && goes(nc, &state) && !other_zero(nc) && !goes_across(nc)
+            sure && moves_by_code(nc, &before)
+                && goes(nc, &state, context)
+                && !other_zero(nc)
+                && !goes_across(nc)
         };
         if let (Some(_), Some(place)) = (stmt.kind.nc().filter(moves), &here)
             && straight(&state)
@@ -51,7 +54,7 @@ fn named(block: &Block, mut state: Modal) -> Vec<(usize, Expr)> {
         {
             found.push((at, place.clone()));
         } else {
-            here = placed(stmt, &state).or(here.filter(|place| stays(stmt, place, &state)));
+            here = placed(stmt, &state).or(here.filter(|place| stays(stmt, place, &state, context)));
         }
     }
     found
@@ -78,11 +81,11 @@ fn straight(after: &Modal) -> bool {
 }
 
 /// True where the axis is at the same place after a statement, and its words have the same values.
-fn stays(stmt: &Stmt, place: &Expr, after: &Modal) -> bool {
+fn stays(stmt: &Stmt, place: &Expr, after: &Modal, context: &Context<'_>) -> bool {
     match &stmt.kind {
-        StmtKind::Assign { .. } => place.constant().is_some() && is_quiet(stmt, after),
-        StmtKind::Nc(nc) => !other_zero(nc) && is_quiet(stmt, after),
-        _ => is_quiet(stmt, after),
+        StmtKind::Assign { .. } => place.constant().is_some() && is_quiet(stmt, after, context),
+        StmtKind::Nc(nc) => !other_zero(nc) && is_quiet(stmt, after, context),
+        _ => is_quiet(stmt, after, context),
     }
 }
 

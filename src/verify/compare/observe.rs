@@ -87,7 +87,7 @@ const NOWHERE: f64 = 1e-9;
 ///
 /// Which work offset is selected shows in the machine coordinates of the moves, every offset having
 /// values of its own; so the selection itself counts only where a program returns, for its caller. A tool length counts
-/// from the next move along its axis on.
+/// from the next move along its axis on, and not before an M code of the machine's builder.
 /// Which tool is made ready shows at the next change.
 ///
 /// What `is_left_out` on the other side finds nothing there, so no setting counts before it. If the other side has no feed
@@ -129,7 +129,7 @@ fn observe<'r>(
         // Which settings stand before a mode of corners, or before what is left out, and which after it nobody could tell.
         if !is_mode(&event.what) && !is_left_out(&event.what) {
             let (back, tool) = (returns(&event.what), finds_tool(&event.what));
-            let across = is_across(&event.what);
+            let across = is_across(&event.what) || is_machine_code(&event.what, side.control);
             seen.settle(|kind, event| match kind {
                 Setting::Work => back,
                 Setting::Length => !across,
@@ -279,6 +279,12 @@ fn is_across(what: &EventKind) -> bool {
         EventKind::Rapid { from, to } | EventKind::Feed { from, to, .. } => from.0[ALONG] == to.0[ALONG],
         _ => false,
     }
+}
+
+/// True for an M code of the machine's builder: no place in it counts the tool length.
+fn is_machine_code(what: &EventKind, control: &Control) -> bool {
+    let EventKind::Act { name, .. } = what else { return false };
+    control.code_of(crate::canon::Act::named(name)).is_some_and(|row| row.code.starts_with('M'))
 }
 
 /// True for a move or a wait in which nothing is cut.
