@@ -3,6 +3,7 @@
 use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
+use super::second_home::leave_changes_to_code;
 use super::{Behaviour, Control, Dialect, Entry, Mark, SystemVariable, VariableClass, registry};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,6 +37,7 @@ impl Control {
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
+        leave_changes_to_code(&mut dialect);
         Overlay::rest(&mut dialect);
         let Overlay { mut reader, profile, .. } = overlay;
         if !reader.faults.is_empty() {

@@ -47,7 +47,8 @@ fn kinds<'c>(machine: &Machine, command: &'c Command) -> impl Iterator<Item = Au
 /// True where the tool word has changed the tool before anything else of the block.
 fn changes_by_word(machine: &Machine, command: &Command) -> bool {
     // The turret of a lathe turns by the word alone, wherever the code for a change stands.
-    machine.rules.lathe || (machine.rules.tool_word_changes.peek() && command.word(Role::Tool).is_some())
+    let by_word = machine.rules.tool_word_changes.peek() || machine.rules.tool_word_selects_length.peek();
+    machine.rules.lathe || by_word && command.word(Role::Tool).is_some()
 }
 
 fn of_kind(command: &Command, kind: Auxiliary) -> impl Iterator<Item = Op> + '_ {

@@ -42,22 +42,26 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
         return super::lathe::turret::index(machine, command, trace);
     }
     let Some(tool) = command.word(Role::Tool) else { return };
-    machine.tool_ready = tool;
-    if !machine.rules.tool_word_changes.peek() {
-        if !command.has(Op::ToolChange) {
-            trace.push(EventKind::ToolReady { tool });
-        }
-        return;
-    }
-    machine.rules.tool_word_changes.ask(trace);
     let selects = machine.rules.tool_word_selects_length.peek();
+    let by_word = machine.rules.tool_word_changes.peek();
+    if by_word {
+        machine.rules.tool_word_changes.ask(trace);
+    }
     if selects && tool == 0.0 {
         // Tool 0 takes the length away; the tool stays where it is.
+        machine.tool_ready = if by_word { tool } else { machine.tool_ready };
         machine.rules.tool_word_selects_length.ask(trace);
         machine.length_op = Op::LengthOff;
         return apply_length(machine, trace);
     }
-    if machine.tool != tool || machine.rules.tool_word_again.ask(trace) {
+    machine.tool_ready = tool;
+    let coded = command.has(Op::ToolChange);
+    if !by_word && !coded {
+        trace.push(EventKind::ToolReady { tool });
+    }
+    // A code that changes to the tool of its block does so before the length of that tool counts.
+    let by_code = !by_word && coded && selects;
+    if by_code || by_word && (machine.tool != tool || machine.rules.tool_word_again.ask(trace)) {
         change(machine, trace);
     }
     if selects {

@@ -18,6 +18,7 @@ mod register;
 mod table;
 #[cfg(test)]
 mod tests;
+mod tools;
 mod value;
 mod whole;
 mod words;

@@ -1,7 +1,6 @@
 //! Values of words: lengths, radii, tools, and the words that a block leaves out.
 
 use super::Lowering;
-use super::words::{Change, Planned};
 use crate::canon::{Op, Role, Sys};
 use crate::dialect::{BareLength, Question};
 use crate::ir::{Class, Expr, Nc, NcItem, Var};
@@ -100,38 +99,6 @@ impl Lowering<'_> {
         }
         self.findings.not_understood(span, "no source says from where this control counts an arc's centre");
         None
-    }
-
-    /// Lowers a tool word that stands by itself. The tool is changed before the block's
-    /// moves, and its length acts in them; tool 0 takes the length away.
-    pub(super) fn tool(&mut self, word: &Word, span: Span, plan: &mut Planned, nc: &mut Nc) {
-        let Some(tool) = self.word_value(Role::Tool, word, span) else { return };
-        let changes = self.findings.behaviour(Question::ToolChangeWord, span);
-        let length = self.findings.is(Question::ToolWordSelectsLength, span);
-        let none = tool == Expr::Number(0.0);
-        match changes {
-            Some("t") if none && length => {}
-            Some("t") => {
-                let items = vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, tool.clone())];
-                let may_be_none = length && self.whole(word).is_none_or(|number| number == 0.0);
-                let mut unless = Vec::new();
-                if may_be_none {
-                    unless.push(Expr::Number(0.0));
-                }
-                if self.findings.behaviour(Question::ToolWordAgain, span) == Some("skipped") {
-                    unless.push(Expr::System(Sys::ActiveTool, ThinVec::new()));
-                }
-                plan.change = Some(Change { nc: Nc { items }, tool: tool.clone(), unless });
-            }
-            Some(_) => self.add(nc, NcItem::Word(Role::Tool, tool.clone()), span),
-            None => self.findings.not_understood(span, "no source says what the tool word does"),
-        }
-        if length && none {
-            self.add(nc, NcItem::Op(Op::LengthOff), span);
-        } else if length {
-            self.add(nc, NcItem::Op(Op::LengthPlus), span);
-            self.add(nc, NcItem::Word(Role::LengthOffset, tool), span);
-        }
     }
 
     /// Adds what the control takes from elsewhere: the active tool's radius, the

@@ -10,6 +10,10 @@ use crate::lower::common::may_take;
 use crate::syntax::{ExprKind, Item, Word};
 use crate::text::Span;
 
+/// How a profile says that M6 triggers the change to the tool of its block.
+const CHANGE: &str = "if it triggers the change to the tool of its block, write M6 = { op = \"tool.change\" } under [codes] of the machine \
+                      profile, and change_by = \"m6\" under [settings] if T alone changes no tool";
+
 /// What a block's words come to.
 #[derive(Default)]
 pub(super) struct Planned {
@@ -44,6 +48,7 @@ impl<'a> Lowering<'a> {
         let mut plan = Planned::default();
         let mut nc = Nc::default();
         let calls = meanings.iter().filter_map(Meaning::code).any(|row| row.op.is_flow());
+        let coded = meanings.iter().filter_map(Meaning::code).any(|row| row.op == Op::ToolChange);
         for ((word, span), meaning) in words.iter().zip(&meanings) {
             match meaning {
                 Meaning::Code(row, number) if row.op.is_flow() => {
@@ -65,7 +70,7 @@ impl<'a> Lowering<'a> {
                     }
                 }
                 Meaning::Role(Role::Sequence | Role::CallAgain | Role::CallCount) if calls => {}
-                Meaning::Role(Role::Tool) => self.tool(word, *span, &mut plan, &mut nc),
+                Meaning::Role(Role::Tool) => self.tool(word, *span, coded, &mut plan, &mut nc),
                 Meaning::Role(role) => {
                     if let Some(value) = self.word_value(*role, word, *span) {
                         self.add(&mut nc, NcItem::Word(*role, value), *span);
@@ -75,6 +80,9 @@ impl<'a> Lowering<'a> {
         }
         if let Some(at) = words.iter().map(|(_, span)| *span).reduce(Span::to) {
             self.complete(&mut nc, items, at);
+            if coded {
+                self.coded_change(at, &plan, &mut nc);
+            }
             if nc.has(Op::Dwell) && nc.word(Role::DwellS).or(nc.word(Role::DwellMs)).is_none() {
                 self.findings.not_understood(at, "no source says how long a dwell without a time waits");
             }
@@ -169,6 +177,9 @@ impl<'a> Lowering<'a> {
 
     /// Where a profile says what a code does that the builder made.
     fn answered_by(&self, letter: char, number: f64) -> String {
+        if (letter, number) == ('M', 6.0) {
+            return CHANGE.into();
+        }
         format!(
             "if the machine's builder made it, say in the machine profile what it does: [[site]] with code = \
              \"{letter}{number}\", a text, and name, target or do"
