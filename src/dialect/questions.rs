@@ -248,6 +248,8 @@ questions! {
     TapRigid "tap.rigid" OneOf(&["always", "code", "unknown"]), "whether taps are rigid, so that the feed follows the spindle: always, or by a code before them alone", if "said";
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
+    CycleVariablePeck "cycle.variable.peck" NUMBER, "number of the variable that a peck cycle takes the depth of its pecks from", if "said";
+    CycleVariableDwell "cycle.variable.dwell" NUMBER, "number of the variable that a cycle with a dwell takes its seconds from", if "said";
     CycleReturns "cycle.returns" OneOf(&["initial", "retract", "unknown"]), "where a hole of a drilling cycle ends: in the plane that the tool was in when the cycle began, or in the retract plane", if "op:call.cycle";
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
     CyclePlane "cycle.plane" OneOf(&["any", "xy", "unknown"]), "the planes that drilling cycles run in: any, or that of G17 alone", if "said";

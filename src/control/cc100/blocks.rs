@@ -15,6 +15,11 @@ use smallvec::SmallVec;
 /// G800: cycle nn has the code G8nn.
 const CYCLES: f64 = 800.0;
 
+/// True for a cycle with a wait at the bottom.
+fn waits(op: Op) -> bool {
+    matches!(op, Op::CycleDrillDwell | Op::CycleBoreDwell)
+}
+
 impl<'r> Interpreter<'r, '_> {
     /// Runs a block.
     pub(super) fn run(&mut self, block: &'r Block) -> Flow<Next> {
@@ -53,6 +58,8 @@ impl<'r> Interpreter<'r, '_> {
         }
         let mut read = words::read(session, words, &mut self.lasting)?;
         self.cycle(&mut read);
+        // Its variable says how long it waits, though no word does.
+        read.command.without_dwell &= !self.lasting.cycle.is_some_and(|row| waits(row.op));
         let session = &mut self.session;
         let command = &mut read.command;
         let incremental =
@@ -98,20 +105,29 @@ impl<'r> Interpreter<'r, '_> {
         }
     }
 
-    /// What a drilling cycle takes from elsewhere: its planes from variables, and where its holes end.
+    /// What a drilling cycle takes from elsewhere: its planes, pecks and dwell from variables, and where its holes end.
     fn cycle(&mut self, read: &mut Read<'r>) {
         if !read.codes.iter().any(|row| row.op.is_cycle()) {
             return;
         }
-        let planes =
-            [(Question::CycleVariableRetract, Role::CycleR), (Question::CycleVariableDepth, Role::Z)];
-        for (behaviour, role) in planes {
+        let mut taken =
+            vec![(Question::CycleVariableRetract, Role::CycleR), (Question::CycleVariableDepth, Role::Z)];
+        for row in &read.codes {
+            match row.op {
+                Op::CyclePeck | Op::CycleChipBreak => taken.push((Question::CycleVariablePeck, Role::CycleQ)),
+                op if waits(op) => taken.push((Question::CycleVariableDwell, Role::CycleDwell)),
+                _ => {}
+            }
+        }
+        for (behaviour, role) in taken {
             let row = self.session.control.behaviour(behaviour);
             let cell = row.and_then(|row| row.value.parse().ok()).and_then(Cell::numbered);
             let Some(cell) = cell else { continue };
             self.session.rest_on(behaviour);
             if let Some(value) = self.store.get(cell) {
-                read.command.words.push((role, value));
+                // The variable counts seconds, a cycle milliseconds.
+                let scale = if role == Role::CycleDwell { 1000.0 } else { 1.0 };
+                read.command.words.push((role, value * scale));
             }
         }
         let returns = self.session.control.behaviour(Question::CycleReturns);

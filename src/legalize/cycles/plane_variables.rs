@@ -1,4 +1,4 @@
-//! Variables that a drilling cycle takes its planes from, and that change while it is in force.
+//! Variables that a drilling cycle takes its planes, the depth of its pecks or its dwell from, and that change while it is in force.
 //!
 //! Law: no source says whether the next holes take the new value or that of the cycle's own block. So such a program is refused.
 //! Side condition: the next block with words is not a cycle's own, which says its planes again, or the end of the cycle.
@@ -16,9 +16,10 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     features.any_op(Op::is_cycle) && !variables(context.source).is_empty()
 }
 
-/// The numbers of the variables that cycles take their planes from.
+/// The numbers of the variables that cycles take their planes and more from.
 fn variables(control: &Control) -> Vec<u32> {
-    let questions = [Question::CycleVariableRetract, Question::CycleVariableDepth];
+    use Question::{CycleVariableDepth, CycleVariableDwell, CycleVariablePeck, CycleVariableRetract};
+    let questions = [CycleVariableRetract, CycleVariableDepth, CycleVariablePeck, CycleVariableDwell];
     let rows = questions.into_iter().filter_map(|question| control.behaviour(question));
     rows.filter_map(|row| row.value.parse().ok()).collect()
 }
@@ -54,7 +55,7 @@ fn told_again(stmts: &[Stmt]) -> bool {
     next.is_some_and(|nc| nc.ops().any(|op| op.is_cycle() || op == Op::CycleOff))
 }
 
-const CHANGED: &str = "this variable holds a plane of the drilling cycle in force, and no source says whether the next holes take its new \
+const CHANGED: &str = "this variable holds a plane, the pecks or the dwell of the drilling cycle in force, and no source says whether the next holes take its new \
      value";
 
-const HELP: &str = "write the cycle again with its new planes, or end it before the change";
+const HELP: &str = "write the cycle again with its new values, or end it before the change";

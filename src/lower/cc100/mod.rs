@@ -12,6 +12,7 @@ mod block;
 mod constants;
 mod cycle;
 mod flow;
+mod holes;
 mod operand;
 mod parts;
 mod register;

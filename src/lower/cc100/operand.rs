@@ -3,9 +3,9 @@
 use super::Lowering;
 use crate::canon::{Op, Role, Sys};
 use crate::dialect::{BareLength, Question};
-use crate::ir::{Class, Expr, Nc, NcItem, Var};
+use crate::ir::{Expr, Nc, NcItem};
 use crate::lower::common::{constant, otherwise};
-use crate::syntax::{Expr as Written, ExprKind, Index, Item, ItemKind, Word};
+use crate::syntax::{Expr as Written, ExprKind, Item, Word};
 use crate::text::Span;
 use thin_vec::ThinVec;
 
@@ -113,36 +113,9 @@ impl Lowering<'_> {
                 self.findings.not_understood(span, "no source says whose radius is taken here");
             }
         }
-        if nc.ops().any(Op::is_cycle) && nc.word(Role::Z).is_none() {
-            self.cycle_words(nc, items, span);
-            match self.findings.behaviour(Question::CycleReturns, span) {
-                Some("retract") => self.add(nc, NcItem::Op(Op::ReturnR), span),
-                Some(_) => {}
-                None => {
-                    let why = "holes are taken to end in the plane that the tool was in when the cycle began";
-                    self.findings.unconfirmed(Question::CycleReturns.fact().into(), Some(why), span);
-                }
-            }
-        }
-    }
-
-    fn cycle_words(&mut self, nc: &mut Nc, items: &[Item], span: Span) {
-        for (role, name) in
-            [(Role::CycleR, Question::CycleVariableRetract), (Role::Z, Question::CycleVariableDepth)]
-        {
-            let number = self.findings.behaviour(name, span).and_then(|number| number.parse::<u32>().ok());
-            let Some(number) = number else {
-                self.findings.not_understood(span, "no source says which variables the cycle reads");
-                continue;
-            };
-            let beside = items.iter().find_map(|item| match &item.kind {
-                ItemKind::Assign { target, value, .. } if target.index == Index::Number(number) => {
-                    constant(value)
-                }
-                _ => None,
-            });
-            let read = Expr::Var(Var { class: Class::Global, number });
-            self.add(nc, NcItem::Word(role, beside.map_or(read, Expr::Number)), span);
+        let cycle = nc.ops().find(|op| op.is_cycle());
+        if let Some(op) = cycle {
+            self.cycle(op, nc, items, span);
         }
     }
 }
