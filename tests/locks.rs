@@ -258,3 +258,32 @@ fn the_lock_says_which_programs_hold_copies_of_which() {
     let text = made.lock.print();
     assert!(text.contains("[parts]") && text.contains("after their M30"), "{text}");
 }
+
+/// A control whose programs have no number: the one that a file's name begins with is the operator's.
+#[test]
+fn a_program_gets_the_number_that_its_file_begins_with() {
+    let [source, target] = ["cc100", "fanuc"].map(|name| Control::plain(name).unwrap());
+    let numbers = |names: &[&str], lock: Lock| {
+        // The subroutine of each becomes a program after it.
+        let text = "N1 G22 P7\nN2 M30\nN3 $7\nN4 G0 X1\nN5 G99\n";
+        let files: Vec<(&str, &str)> = names.iter().map(|name| (*name, text)).collect();
+        let made = convert(&inputs(&files), &source, &target, lock, Options::default());
+        let told =
+            |at: usize| made.programs[at].diagnostics.iter().any(|found| found.code.number() == "MG0605");
+        let all = names.iter().enumerate().map(|(at, name)| (made.lock.programs[*name], told(at)));
+        (all.collect::<Vec<_>>(), made.lock)
+    };
+    let empty = || Lock::new("cc100", "fanuc");
+    let names = ["sub/1001.NC", "1014.NC", "1102-FLANSCH.NC", "0020_B.NC", "PLATE.NC", "3D.NC"];
+    let (given, lock) = numbers(&names, empty());
+    let wanted = [(1001, false), (1014, false), (1102, false), (20, false), (1000, false), (1002, false)];
+    assert_eq!(given, wanted);
+    // The lock keeps them, and so it does those of an earlier run that had them otherwise.
+    assert_eq!(numbers(&names, lock).0, wanted);
+    let mut other = empty();
+    other.programs.insert("1014.NC".into(), 1003);
+    assert_eq!(numbers(&["1014.NC"], other).0, [(1003, true)]);
+    // Two files of one number, a number that is often locked, and one that the target does not have.
+    let (given, _) = numbers(&["7-A.NC", "7-B.NC", "9001-W.NC", "20240115.NC"], empty());
+    assert_eq!(given, [(1000, true), (1001, true), (1002, true), (1003, true)]);
+}

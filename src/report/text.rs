@@ -4,6 +4,7 @@ use super::asked::asked;
 use super::{Part, Questions, Totals};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::library::{LeftOut, Outcome, Told};
+use crate::syntax::ProgramName;
 use crate::text::{shown, shown_lines};
 use miette::{GraphicalReportHandler, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents};
 use miette::{Report, SourceCode, SourceSpan, SpanContents};
@@ -254,8 +255,12 @@ fn list(out: &mut String, part: &Part<'_>) {
         };
         let codes: BTreeSet<&str> = program.diagnostics.iter().map(|d| d.code.number()).collect();
         let codes = codes.into_iter().collect::<Vec<_>>().join(" ");
-        let name = shown(program.name.as_deref().unwrap_or("-"));
-        let file = shown(&part.inputs[program.file].name);
+        let input = &part.inputs[program.file].name;
+        // A program that has no number on the source is selected by the one that it got.
+        let given = part.conversion.lock.programs.get(input).filter(|_| program.outcome != Outcome::Refused);
+        let given = given.map(|number| format!("as {}", ProgramName::Number(*number)));
+        let name = shown(program.name.as_deref().or(given.as_deref()).unwrap_or("-"));
+        let file = shown(input);
         let _ = writeln!(out, "{}", format!("{outcome:<9}  {file:<width$}  {name:<6} {codes}").trim_end());
     }
     let taken = &part.conversion.taken;

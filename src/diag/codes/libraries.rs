@@ -22,7 +22,7 @@ Convert the two in separate runs, each with its own callers."
 "A program that has no number on the source, or a subroutine that becomes a program of its own, needs a number on the target, and no number is free."
 
     "0605" Renumbered Note "a program gets another number"
-"The number of the program is larger than the target control takes, so the program gets one that is free there. Calls in the library that name it get the new number too; `macroglot.lock` keeps it for later runs.
+"The number of the program is larger than the target control takes, so the program gets one that is free there. Or the program has no number, and the one that its file's name begins with (`1102-FLANSCH.NC`) is taken or not allowed there. Calls in the library that name it get the new number too; `macroglot.lock` keeps it for later runs.
 
 Whoever selects the program at the machine, or calls it from outside the library, must use the new number."
 

@@ -1,7 +1,7 @@
 //! Numbers of programs on the target.
 //!
 //! Law: a program keeps its own number if the target has it; else it gets the one that the lock gives it, the one that it had
-//! before an earlier conversion, or the next free one. So does one outside the library that is called by a number which the
+//! before an earlier conversion, the one that the name of its file begins with, or the next free one. So does one outside the library that is called by a number which the
 //! target does not have. Side condition: no computed call finds a program that has its number by this conversion; if it may, that is
 //! an assumption. Counter-example: `M98 P#1` and a macro that became O8000.
 
@@ -76,6 +76,10 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
     let mut before = context.earlier.numbers.clone();
     let kept: BTreeSet<u32> = before.values().copied().collect();
     let mut free = [FIRST_MAIN, FIRST_SUB].map(|first| (first..=max).chain(1..first));
+    let of_files = by_files(module, max, &context.origins, &|n| {
+        !(taken.contains(&n) || kept.contains(&n) || stands(n) || bounded && looked_for.contains(n))
+    });
+    taken.extend(of_files.values().copied().flatten());
     let mut out = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         let Some(name) = &program.name else { continue };
@@ -90,7 +94,8 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
                 let is_free =
                     |n: &u32| !(taken.contains(n) || stands(*n) || bounded && looked_for.contains(*n));
                 let new = |n: &u32| is_free(n) && !kept.contains(n);
-                before.filter(is_free).or_else(|| free[usize::from(sub)].find(new))
+                let of_file = of_files.get(&index).copied().flatten();
+                before.filter(is_free).or(of_file).or_else(|| free[usize::from(sub)].find(new))
             }
         };
         match number {
@@ -101,12 +106,13 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
                             "{name} becomes {}: the target's program numbers end at {max}",
                             ProgramName::Number(number)
                         );
-                        let help = "call and select it by its new number; macroglot.lock keeps the number for \
-                             later runs";
-                        context.add(
-                            index,
-                            Diagnostic::new(Code::Renumbered, program.site.span, what).with_help(help),
-                        );
+                        let found = Diagnostic::new(Code::Renumbered, program.site.span, what);
+                        context.add(index, found.with_help(SELECT));
+                    }
+                    if of_files.contains_key(&index) && number_of_file(name) != Some(number) {
+                        let what = format!("{name} becomes {}: {NOT_OF_FILE}", ProgramName::Number(number));
+                        let found = Diagnostic::new(Code::Renumbered, program.site.span, what);
+                        context.add(index, found.with_help(SELECT));
                     }
                     taken.insert(number);
                     chosen.insert(key, number);
@@ -147,6 +153,48 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
         out.push((name, number));
     }
     ProgramNumbers { of: out, chosen }
+}
+
+const SELECT: &str = "call and select it by its new number; macroglot.lock keeps the number for later runs";
+
+const NOT_OF_FILE: &str = "the number that its file's name begins with is taken, begins the name of another file too (macroglot.lock may keep earlier ones), or is none that a main \
+                           program should have on the target (from O9000 on programs are often locked)";
+
+/// From here on programs are often locked against changes on the machine.
+const LOCKED: u32 = 9000;
+
+/// The number that a name begins with, as the file of a program that has no other: 1102 of `1102-FLANSCH.NC`.
+fn number_of_file(name: &ProgramName) -> Option<u32> {
+    let ProgramName::Name(name) = name else { return None };
+    let name = name.rsplit(['/', '\\']).next()?;
+    let end = name.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(name.len());
+    let (digits, rest) = name.split_at_checked(end)?;
+    digits.parse().ok().filter(|_| !rest.starts_with(char::is_alphanumeric))
+}
+
+/// For each program whose file's name begins with a number: that number, if it is free and of no other file.
+fn by_files(
+    module: &Module,
+    max: u32,
+    origins: &[usize],
+    is_free: &dyn Fn(u32) -> bool,
+) -> BTreeMap<usize, Option<u32>> {
+    let mut seen = BTreeSet::new();
+    let is_first: Vec<bool> = origins.iter().map(|from| seen.insert(*from)).collect();
+    let numbers = || {
+        // A subroutine that became a program stands after the one that it comes from.
+        let is_file = |(index, _): &(usize, _)| is_first.get(*index).copied().unwrap_or(true);
+        let all = module.programs.iter().enumerate().filter(is_file);
+        all.filter_map(|(index, program)| Some((index, number_of_file(program.name.as_ref()?)?)))
+    };
+    let mut files: BTreeMap<u32, usize> = BTreeMap::new();
+    numbers().for_each(|(_, number)| *files.entry(number).or_default() += 1);
+    let given = |number: u32| {
+        let alone = files.get(&number) == Some(&1);
+        (alone && (1..LOCKED.min(max.saturating_add(1))).contains(&number) && is_free(number))
+            .then_some(number)
+    };
+    numbers().map(|(index, number)| (index, given(number))).collect()
 }
 
 /// The programs outside the library whose numbers the target does not have, or that have another one there, each with the first call of it.
