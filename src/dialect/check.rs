@@ -145,6 +145,7 @@ pub const STATEMENTS: &[&str] = &[
     "index",
     "indirect",
     "indirect.assign",
+    "block.skip",
     "read.address",
     "read.bit",
 ];

@@ -33,6 +33,14 @@ impl<'r> Interpreter<'r, '_> {
                     self.last.insert(word.letter, value);
                     words.push(Spoken { letter: word.letter, value, computed });
                 }
+                ItemKind::Skip(number) => {
+                    if let Some(row) = self.session.control.statement("block.skip") {
+                        self.session.trace.rest_on(row);
+                    }
+                    if self.session.skips(*number) {
+                        return Ok(Next::On);
+                    }
+                }
                 ItemKind::Label(_)
                 | ItemKind::Comment(_)
                 | ItemKind::Sequence { .. }

@@ -21,8 +21,9 @@ impl Lowering<'_> {
         for error in &block.errors {
             self.findings.add(Diagnostic::new(error.code, error.span, error.message.clone()));
         }
-        if site.skip.take().is_some() {
-            self.findings.not_understood(block.span, "no source says that this control skips blocks");
+        match site.skip.take() {
+            Some(level) => self.pass_over(level, block, &site),
+            None => self.end_skips(),
         }
         let mut words: Vec<(&Word, Span)> = block.items.iter().filter_map(as_word).collect();
         if words.len() > MOST_WORDS {
@@ -61,6 +62,36 @@ impl Lowering<'_> {
         if !said && !site.comments.is_empty() {
             self.push(StmtKind::Comment, &site);
         }
+    }
+
+    /// Goes on after blocks with a block skip.
+    pub(super) fn end_skips(&mut self) {
+        if let Some(next) = self.skipped.take() {
+            self.constants.forget();
+            self.build.start(next);
+        }
+    }
+
+    /// Passes over a block while its switch is on. Blocks that follow each other are passed over together, since nobody turns
+    /// the switch between them.
+    fn pass_over(&mut self, level: u8, block: &Block, site: &SourceInfo) {
+        match self.control.statement("block.skip") {
+            Some(row) => self.findings.rest_on(row, block.span),
+            None => self.findings.not_understood(block.span, "no source says that this control skips blocks"),
+        }
+        if block.items.iter().any(|item| matches!(item.kind, ItemKind::Label(_))) {
+            let message = "no source says whether jumps find a label whose block is skipped: take the / away";
+            self.findings.not_understood(block.span, message);
+        }
+        if self.skipped.is_some() {
+            return;
+        }
+        let (body, next) = (self.build.fresh(), self.build.fresh());
+        let site = SourceInfo { span: site.span, ..SourceInfo::default() };
+        let cond = Box::new(Cond::Switch(level));
+        self.build.end(TermKind::Branch { cond, then: next, otherwise: body }, site);
+        self.build.start(body);
+        self.skipped = Some(next);
     }
 
     fn act(&mut self, planned: Planned, site: &SourceInfo) {

@@ -89,6 +89,8 @@ struct Lowering<'a> {
     load: Source,
     /// Labels whose first place is behind us.
     placed: BTreeSet<u32>,
+    /// Where the program goes on after the blocks with a block skip that are being read.
+    skipped: Option<BlockId>,
     is_cycle: bool,
     /// Where a cycle ends.
     ends: BTreeSet<Span>,
@@ -111,6 +113,7 @@ impl<'a> Lowering<'a> {
             dispatches: Vec::new(),
             load: if control.is(Question::LoadSetsCondition) { Source::LoadThatSets } else { Source::Load },
             placed: BTreeSet::new(),
+            skipped: None,
             is_cycle,
             ends: BTreeSet::new(),
             temps: 0,
@@ -145,6 +148,7 @@ impl<'a> Lowering<'a> {
             }
             self.block(block, site);
         }
+        self.end_skips();
     }
 
     /// True for a program stop. The comment after it is what the operator reads, and

@@ -105,6 +105,7 @@ impl Build {
             }
             Rule::timer => ItemKind::Timer(Box::new(self.variable(parts.nth(1)?)?)),
             Rule::tape => ItemKind::Tape,
+            Rule::skip => ItemKind::Skip(None),
             _ => return None,
         })
     }

@@ -7,6 +7,7 @@ use crate::syntax::TokenKind::{self, *};
 pub(super) fn kind(rule: Rule) -> Option<TokenKind> {
     Some(match rule {
         Rule::tape | Rule::dollar => Mark,
+        Rule::skip => Skip,
         Rule::n_letter | Rule::letter | Rule::p_letter | Rule::g_letter | Rule::row_letter | Rule::read => {
             Letter
         }

@@ -111,7 +111,7 @@ fn slips_are_named_at_their_place() {
         ("V12", "Unreadable", 4),
         ("BEQ 5", "Unreadable", 5),
         ("TST X", "Unreadable", 5),
-        ("/N5 G0", "Unreadable", 1),
+        ("N5 /G0", "Unreadable", 4),
     ];
     for (line, code, column) in table {
         assert_eq!(faults(parse_line, line), [(code.to_owned(), column)], "{line}");

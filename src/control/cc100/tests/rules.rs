@@ -213,3 +213,17 @@ fn a_profile_names_the_dwell_and_outputs() {
     assert_eq!(writes, [(24, 1.0), (25, 0.0)]);
     assert!(told.iter().any(|what| matches!(what, EventKind::Feed { feed, .. } if *feed == 100.0)));
 }
+
+/// The block is passed over while the switch is on, and the one after it is not; both rest on the machine having the switch.
+#[test]
+fn a_block_with_a_skip_is_passed_over_by_the_switch() {
+    let places = |switch: u32| {
+        let scenario = Scenario { block_skip: switch, ..given(&[]) };
+        let run = run("cc100", &[("t.nc", b"G1 F100\n/N2 X1\nN3 X2\nM30\n")], &scenario);
+        ended(&run);
+        assert!(doubts(&run).contains(&"statement:block.skip"));
+        feeds(&run).iter().map(|at| at[0]).collect::<Vec<_>>()
+    };
+    assert_eq!(places(0), [1.0, 2.0]);
+    assert_eq!(places(1 << 1), [2.0]);
+}
