@@ -188,12 +188,21 @@ impl<'f> Library<'f> {
     }
 }
 
-/// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`.
+/// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`, `zyk20.nc`, `Zyklus 20.nc` and `g820.nc`.
 pub(super) fn cycle_number(file: &str) -> Option<u32> {
     let name = file.rsplit(['/', '\\']).next()?.to_ascii_lowercase();
-    let rest = name.strip_prefix("cycle")?;
+    let at = name.find(|sign: char| sign.is_ascii_digit())?;
+    let (word, rest) = name.split_at_checked(at)?;
     let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
-    rest.get(..end)?.parse().ok()
+    let (digits, behind) = rest.split_at_checked(end)?;
+    let letter_follows = behind.starts_with(char::is_alphanumeric);
+    match word.trim_end_matches([' ', '_', '-']) {
+        "cycle" => digits.parse().ok(),
+        "zyklus" | "zyk" | "cyc" if !letter_follows => digits.parse().ok(),
+        // By its code.
+        "g" if word == "g" && !letter_follows && digits.len() == 3 => digits.strip_prefix('8')?.parse().ok(),
+        _ => None,
+    }
 }
 
 /// A program of a library.

@@ -175,7 +175,11 @@ fn check(
         }
         Callee::Program(ProgramName::Name(name)) => {
             let what = format!("'{name}' is not in the library, and the target has no program of that name");
-            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+            let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+            // Where no text says a program's name, its file does.
+            let by_file = context.source.names().program.is_none();
+            let help = format!("add its file to the library, and name the file after it: {name}.NC");
+            context.add(index, if by_file { finding.with_help(help) } else { finding });
         }
         Callee::Cycle(n) => {
             let what = format!(

@@ -1,6 +1,6 @@
 //! Lowering of the CC100.
 //!
-//! A file is one program; the maker's cycle G8nn is the file `cyclenn`. Blocks
+//! A file is one program; the cycle G8nn is the file `cyclenn`, or has another usual name for it. Blocks
 //! are plain, but three things have no counterpart in other languages and are
 //! worked out here on the whole program, each in a file of its own:
 //!
@@ -35,8 +35,8 @@ use constants::Constants;
 use register::Source;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Lowers the program of a file. Files whose name begins with `cycle` and a number are
-/// the maker's cycles: their M2 returns to the program that called them.
+/// Lowers the program of a file. Files whose name is that of a cycle are
+/// the maker's or the shop's cycles: their M2 returns to the program that called them.
 pub fn lower(parsed: &ParsedFile<'_>, file: usize, name: &str, control: &Control) -> Lowered {
     let number = cycle_number(name);
     let mut lowering = Lowering::new(parsed, control, number.is_some());
@@ -55,11 +55,22 @@ pub fn lower(parsed: &ParsedFile<'_>, file: usize, name: &str, control: &Control
     Lowered { programs: vec![(program, findings.take_list())], names, tape }
 }
 
-/// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`.
+/// What shops put before the number of a cycle in the name of its file.
+const CYCLE_FILES: [&str; 4] = ["cycle", "zyklus", "zyk", "cyc"];
+
+/// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`, `ZYK20.NC` and `G820.NC`.
 fn cycle_number(name: &str) -> Option<u32> {
     let stem = std::path::Path::new(name).file_stem()?.to_str()?.to_ascii_lowercase();
-    let digits: String = stem.strip_prefix("cycle")?.chars().take_while(char::is_ascii_digit).collect();
-    digits.parse().ok()
+    let (rest, code) = match stem.strip_prefix("g8") {
+        Some(rest) => (rest, true),
+        None => (CYCLE_FILES.iter().find_map(|word| stem.strip_prefix(word))?, false),
+    };
+    let rest = if code { rest } else { rest.trim_start_matches([' ', '_', '-']) };
+    let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+    let goes_on = rest.get(digits.len()..)?.starts_with(char::is_alphanumeric);
+    // Only the maker's word may have a letter after its number.
+    let is_cycle = if code { digits.len() == 2 && !goes_on } else { !goes_on || stem.starts_with("cycle") };
+    digits.parse().ok().filter(|_| is_cycle)
 }
 
 /// The name that calls find a cycle by.

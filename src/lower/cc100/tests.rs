@@ -98,3 +98,23 @@ fn long_lines_and_many_jumps_take_no_time() {
         assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
     }
 }
+
+#[test]
+fn files_of_cycles_have_the_names_that_shops_give_them() {
+    let name = |file: &str| lowered("M2\n", file).programs[0].0.name.clone();
+    let twenty = Some(ProgramName::Name("CYCLE20".into()));
+    for file in [
+        "cycle20.nc",
+        "CYCLE20B.NC",
+        "ZYK20.NC",
+        "sub/ZYKLUS 20.NC",
+        "Zyk_20-offset.txt",
+        "CYC20.NC",
+        "G820.NC",
+    ] {
+        assert_eq!(name(file), twenty, "{file}");
+    }
+    for file in ["ZYK20B.NC", "G82.NC", "G8201.NC", "G920.NC", "CYCLE.NC", "MYCYCLE20.NC", "20.NC"] {
+        assert_eq!(name(file), None, "{file}");
+    }
+}

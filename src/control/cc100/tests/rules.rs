@@ -227,3 +227,19 @@ fn a_block_with_a_skip_is_passed_over_by_the_switch() {
     assert_eq!(places(0), [1.0, 2.0]);
     assert_eq!(places(1 << 1), [2.0]);
 }
+
+#[test]
+fn cycles_are_found_by_the_names_that_shops_give_their_files() {
+    let far = |file: &str| {
+        let run = run("cc100", &[("t.nc", b"G820\nG1 X1 F100\nM30\n"), (file, b"G91\nM2\n")], &given(&[]));
+        matches!(run.end, End::Ended)
+    };
+    for file in
+        ["cycle20.nc", "CYCLE20B.NC", "ZYK20.NC", "ZYKLUS 20.NC", "Zyk_20-offset.txt", "CYC20.NC", "G820.NC"]
+    {
+        assert!(far(file), "{file}");
+    }
+    for file in ["ZYK20B.NC", "G82.NC", "G8201.NC", "G920.NC", "CYCLE.NC", "MYCYCLE20.NC", "20.NC"] {
+        assert!(!far(file), "{file}");
+    }
+}
