@@ -139,7 +139,15 @@ fn met_one(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Me
     let standard = target.code(head.letter, head.number(), &words);
     let own = |op: Op| matches!(op, Op::Builder | Op::MachineSpecific | Op::PathQuality);
     let Some(standard) = standard.filter(|row| !own(row.op)) else {
-        return Ok(Met::Target(builders(site, act, code)));
+        let mut row = builders(site, act, code);
+        // What the target's profile says of its own code counts still: a word that the source never gives is asked for.
+        let own = target.profile.site.iter().filter(|own| own.head() == Some(head) && own.name.is_some());
+        for (letter, word) in own.flat_map(|own| &own.words) {
+            if let (false, Some(role)) = (row.words.contains_key(letter), act.word(word)) {
+                row.words.insert(letter.clone(), role);
+            }
+        }
+        return Ok(Met::Target(row));
     };
     let switched = matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
     if standard.op.is_flow() || !switched || standard.op == Op::ProbeOther {

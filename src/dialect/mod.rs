@@ -44,6 +44,7 @@ mod site;
 mod site_lines;
 mod site_rows;
 mod spelling;
+mod spoken;
 mod standing;
 mod start;
 mod stated;

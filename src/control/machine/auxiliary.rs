@@ -1,9 +1,10 @@
 //! Tool change, spindle and coolant: what a block does beside moving, with the start of its move or after it.
 
 use super::lathe::holes::clamp_of;
-use super::{Command, Machine, tooling};
+use super::{Command, Machine, spoken, tooling};
 use crate::canon::{Act, Auxiliary, Op, Role, Running};
 use crate::control::trace::{Event, EventKind, Spindle, Told, Trace};
+use std::collections::BTreeMap;
 
 /// What counts of the machine before a block, to see whether the time at which something acts matters.
 pub(super) struct Before {
@@ -87,9 +88,15 @@ fn act(machine: &mut Machine, command: &Command, late: bool, trace: &mut Trace) 
             continue;
         }
         match kind {
-            Auxiliary::Change => tooling::change(machine, trace),
+            Auxiliary::Change => {
+                machine.spoken.doubt();
+                tooling::change(machine, trace);
+            }
             Auxiliary::Speed if readies(machine, command) => {}
-            Auxiliary::Speed => turn(machine, command, machine.spindle, trace),
+            Auxiliary::Speed => {
+                spoken::again(machine, command, trace);
+                turn(machine, command, machine.spindle, trace);
+            }
             Auxiliary::Other => others(machine, command, trace),
             Auxiliary::Forward | Auxiliary::Start | Auxiliary::Stop => {
                 for op in of_kind(command, kind) {
@@ -120,6 +127,7 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
         }
     };
     machine.says_running(Running::Spindle, trace);
+    machine.spoken.doubt();
     turn(machine, command, direction, trace);
 }
 
@@ -143,6 +151,7 @@ fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
             continue;
         }
         if op.auxiliary() == Some(Auxiliary::Other) || (is_builders(command) && is_own(op)) {
+            machine.spoken.doubt();
             trace.push(EventKind::Other { operation: op, code: command.own_code.clone() });
         }
     }
@@ -151,7 +160,9 @@ fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
 /// A builder's code that the profile names: the variables that it sets have what the machine puts there.
 pub(super) fn builders(machine: &mut Machine, command: &Command, act: Act, trace: &mut Trace) {
     let words = command.words.iter().filter_map(|(role, value)| Some((act.word_name(*role)?, *value)));
-    trace.push(EventKind::Act { name: act.name(), words: words.collect() });
+    let mut words: BTreeMap<String, f64> = words.collect();
+    spoken::beside(machine, command, act, &mut words);
+    trace.push(EventKind::Act { name: act.name(), words });
     machine.answers(act);
 }
 
@@ -172,6 +183,7 @@ fn turn(machine: &mut Machine, command: &Command, direction: Spindle, trace: &mu
         // Surface speed comes in metres or feet a minute.
         let unit = if machine.inch { 304.8 } else { 1000.0 };
         machine.speed = if machine.surface_speed { speed * unit } else { speed };
+        machine.spoken.says(speed, machine.surface_speed);
         machine.lathe.speeds[usize::from(machine.surface_speed)] = machine.speed;
     }
     machine.spindle = direction;

@@ -28,6 +28,7 @@ mod returns;
 mod rigid;
 mod rounding;
 mod rules;
+mod spoken;
 mod state;
 mod system;
 #[cfg(test)]
@@ -96,6 +97,8 @@ pub struct Machine {
     speed: f64,
     surface_speed: bool,
     spindle: Spindle,
+    /// The last S as a number of turns, and the builder's code that turns a tool at it.
+    spoken: spoken::Spoken,
     coolant: Op,
     /// What stopped the program last, if nobody knows what it did with spindle and coolant, which ran.
     unsure_running: [Option<Pause>; 2],
@@ -168,6 +171,7 @@ impl Machine {
             speed: 0.0,
             surface_speed: false,
             spindle: Spindle::Stopped,
+            spoken: spoken::Spoken::default(),
             coolant: Op::CoolantOff,
             unsure_running: [None; 2],
             tool_ready: f64::from(scenario.tool),

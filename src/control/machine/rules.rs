@@ -4,7 +4,7 @@ mod answers;
 
 use super::frame::UnderIncremental;
 use super::lathe::Turning;
-use crate::canon::{Act, Auxiliary, Op, Pause, Running, Sys};
+use crate::canon::{Act, Auxiliary, Op, Pause, Role, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, Question};
 pub use answers::{LengthAfter, NoCentre, RadiusTable};
@@ -69,6 +69,8 @@ pub struct Rules {
     ends: [[(Option<bool>, bool); Running::ALL.len()]; Pause::ALL.len()],
     /// The variables that builders' codes set, by the numbers of their names.
     pub sets: BTreeMap<Act, Vec<u32>>,
+    /// The word of a builder's code that is S, by its act: without it the last S counts.
+    pub speaks: BTreeMap<Act, Role>,
     /// True if a code cancels all zero shifts, or a word that selects them takes 0 for none.
     pub cancels_offsets: bool,
     pub negative_radius_is_long: Fact<bool>,
@@ -222,6 +224,9 @@ impl Rules {
                     let sets = site.sets.values().map(|name| Act::named(name).number() as u32);
                     Some((control.act_of(site)?, sets.collect()))
                 })
+                .collect(),
+            speaks: (control.profile().site.iter())
+                .filter_map(|site| control.act_of(site).and_then(|act| Some((act, control.speed_word(act)?))))
                 .collect(),
             ends: Pause::ALL.map(|pause| {
                 Running::ALL.map(|running| {

@@ -1,5 +1,6 @@
 //! Codes of a block: when they act, how many it takes, and which the target lacks.
 
+pub(in crate::legalize) mod act_speeds;
 pub(in crate::legalize) mod acts;
 pub(in crate::legalize) mod beside_moves;
 pub(in crate::legalize) mod by_number;

@@ -186,11 +186,11 @@ impl Speed {
 
 impl Speed {
     /// After what nobody sees; a speed of the surface may be in force there still.
-    fn lose(&mut self) {
+    pub(in crate::legalize) fn lose(&mut self) {
         *self = self.either(Self::Unknown);
     }
 
-    fn either(self, other: Self) -> Self {
+    pub(in crate::legalize) fn either(self, other: Self) -> Self {
         match (self, other) {
             (Self::Surface, _) | (_, Self::Surface) => Self::Surface,
             (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,

@@ -12,8 +12,8 @@ use crate::legalize::calls::{
     text_returns,
 };
 use crate::legalize::codes::{
-    acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses, substitutes,
-    through_coolant,
+    act_speeds, acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses,
+    substitutes, through_coolant,
 };
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
@@ -181,6 +181,13 @@ const BLOCKS: &[Pass] = &[
     Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
         .when(|c, _| c.has(Feature::Code))
         .needs(&["code-chains"]),
+    Pass::rewrites(
+        "act-speeds",
+        "codes that turn live tools get the S in force, where the target reads a word of their own",
+        act_speeds::run,
+    )
+    .when(act_speeds::concerns)
+    .needs(&["code-chains"]),
     Pass::rewrites(
         "builders-codes",
         "builders' codes that the target has not become what the profile says",

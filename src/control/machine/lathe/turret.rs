@@ -14,6 +14,7 @@ pub fn index(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let Some(word) = command.number(Role::Turret) else { return };
     let (station, offset) = turret_parts(f64::from(word));
     let offset = offset as u32;
+    machine.spoken.doubt();
     if (1..100).contains(&word) {
         // By its digits it is an offset alone; whether a machine takes it for a station no source says.
         trace.doubt("machine:lathe.tool.word.short");
