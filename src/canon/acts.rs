@@ -28,6 +28,9 @@ fn made_of(name: &str) -> u32 {
 }
 
 impl Act {
+    /// The name of the code that engages the C axis of a lathe, and of the one that lets it go: profiles write these.
+    pub const C_AXIS: [&'static str; 2] = ["c.axis.on", "c.axis.off"];
+
     /// The act of a name. Of two names that make one number the later gets the next that is free.
     pub fn named(name: &str) -> Self {
         let mut all = NAMED.write().unwrap_or_else(PoisonError::into_inner);
@@ -66,6 +69,16 @@ impl Act {
 
     /// What a code that the shop gave no name is known by ends with this and a number of its machine.
     pub const OWN: char = '@';
+
+    /// The name of a word that means nothing to another machine's code, by its letter: no machine has it, and it is left out.
+    pub fn dropped(letter: &str) -> String {
+        format!("{}{letter}", Self::OWN)
+    }
+
+    /// True for the name of a word that is left out.
+    pub fn is_dropped(word: &str) -> bool {
+        word.starts_with(Self::OWN)
+    }
 
     /// The role of a word of its codes, by the word's name; none if there are more words than roles.
     pub fn word(self, name: &str) -> Option<Role> {

@@ -139,15 +139,7 @@ fn met_one(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Me
     let standard = target.code(head.letter, head.number(), &words);
     let own = |op: Op| matches!(op, Op::Builder | Op::MachineSpecific | Op::PathQuality);
     let Some(standard) = standard.filter(|row| !own(row.op)) else {
-        let mut row = builders(site, act, code);
-        // What the target's profile says of its own code counts still: a word that the source never gives is asked for.
-        let own = target.profile.site.iter().filter(|own| own.head() == Some(head) && own.name.is_some());
-        for (letter, word) in own.flat_map(|own| &own.words) {
-            if let (false, Some(role)) = (row.words.contains_key(letter), act.word(word)) {
-                row.words.insert(letter.clone(), role);
-            }
-        }
-        return Ok(Met::Target(row));
+        return Ok(Met::Target(builders(site, act, code)));
     };
     let switched = matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
     if standard.op.is_flow() || !switched || standard.op == Op::ProbeOther {
@@ -160,6 +152,18 @@ fn met_one(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Me
     };
     let mut words = BTreeMap::new();
     for (letter, there) in &site.words {
+        if there.trim().is_empty() {
+            let act = standard.fixed.get(&Role::Act).and_then(|number| Act::of(*number));
+            let role = act.and_then(|act| act.word(&Act::dropped(letter)));
+            let role = role.ok_or_else(|| {
+                format!(
+                    "{code} of the target is a code of its own: leave {letter} out of the words of {}",
+                    site.code
+                )
+            })?;
+            words.insert(letter.clone(), role);
+            continue;
+        }
         let wanted = if site.target.is_some() { there } else { letter };
         words.insert(letter.clone(), role(wanted.chars().next().unwrap_or_default())?);
     }
@@ -183,7 +187,8 @@ fn builders(site: &SiteCode, act: Act, code: &str) -> CodeMeaning {
         None => row.words,
         Some(_) => {
             let letters = site.words.iter();
-            letters.filter_map(|(letter, there)| Some((there.clone(), act.word(letter)?))).collect()
+            let there = letters.filter(|(_, there)| !there.trim().is_empty());
+            there.filter_map(|(letter, there)| Some((there.clone(), act.word(letter)?))).collect()
         }
     };
     CodeMeaning { code: code.into(), words, preferred: true, ..row }

@@ -264,6 +264,8 @@ questions! {
     ThreadFeedIsLead "thread.feed.is.lead" YES, "F of a thread is its lead in feed a minute too", if "op:threading";
     SpeedKept "speed.kept" OneOf(&["mode", "turns", "unknown"]), "the speed after a change between G96 and G97 without S: the last one of that mode, or the turns of the \
                                                                  moment", if "op:threading";
+    CAxisEngages "c.axis.engages" OneOf(&["code", "return", "unknown"]), "what engages the C axis of a lathe: a code of the builder (name it 'c.axis.on'), or its return to the \
+                                                                        reference position, until the spindle starts", if "op:threading";
     PassAlone "pass.alone" OneOf(&["nothing", "repeats", "unknown"]), "what a block with M, S or T and without an axis does while a turning, threading or facing pass is in \
                                                                      force: the pass once more, or nothing but its own words", if "op:pass.turning";
     PassEmpty "pass.empty" OneOf(&["nothing", "repeats", "unknown"]), "what a block without a word, or with F or the taper alone, does while a turning, threading or facing pass is in force: \

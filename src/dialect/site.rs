@@ -105,6 +105,7 @@ impl SiteCode {
         for (letter, meaning) in &self.words {
             let role = match (self.op, act) {
                 (Some(_), _) => Role::find(meaning),
+                (None, Some(act)) if meaning.trim().is_empty() => act.word(&Act::dropped(letter)),
                 // Beside the code of a target a letter is known by itself.
                 (None, Some(act)) if self.target.is_some() => act.word(letter),
                 (None, Some(act)) => act.word(meaning),

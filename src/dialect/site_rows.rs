@@ -156,7 +156,12 @@ impl Overlay {
             let letter = beside.letter.to_string();
             let moves = dialect.words.iter().any(|word| word.letter == letter && word.role.is_axis());
             if moves && !row.words.contains_key(&letter) {
-                let help = format!("say what it is: words = {{ {letter} = \"place\" }}");
+                let help = match &site.target {
+                    Some(target) => format!(
+                        "say what becomes of it: words = {{ {letter} = \"\" }} where {target} takes no word for it, or the letter that {target} has for it"
+                    ),
+                    None => format!("say what it is: words = {{ {letter} = \"place\" }}"),
+                };
                 let message = format!("{} would leave {letter} as a move of its own", site.code);
                 self.site_fault(site, message, &help);
             }
@@ -166,7 +171,9 @@ impl Overlay {
     fn check_words(&mut self, site: &SiteCode, row: &CodeMeaning) {
         let mut told: BTreeMap<&str, &str> = BTreeMap::new();
         for (letter, meaning) in &site.words {
+            let drops = meaning.trim().is_empty() && (site.target.is_some() || site.name.is_some());
             if site.op.is_none()
+                && !drops
                 && let Some(other) = told.insert(meaning, letter)
             {
                 let message = format!("{other} and {letter} of {} are both '{meaning}'", site.code);
@@ -183,12 +190,15 @@ impl Overlay {
                     None => "beside 'op' a word has a role: words = { F = \"dwell.s\" }".into(),
                 };
                 self.site_fault(site, format!("'{meaning}' is not the role of a word"), &help);
-            } else if meaning.trim().is_empty() {
+            } else if meaning.trim().is_empty() && !drops {
                 let help = format!("name what it is: words = {{ {letter} = \"level\" }}");
                 self.site_fault(site, format!("{letter} of {} has no name", site.code), &help);
-            } else if site.target.is_some() && address(meaning).is_none() {
-                let help = "beside 'target' a word becomes a letter of that code: words = { S = \"P\" }";
-                self.site_fault(site, format!("'{meaning}' is not the letter of a word"), help);
+            } else if site.target.is_some() && !drops && address(meaning).is_none() {
+                let help = format!(
+                    "beside 'target' a word becomes a letter of that code: words = {{ {letter} = \"P\" }}, or \"\" where that code \
+                     takes no word for it"
+                );
+                self.site_fault(site, format!("'{meaning}' is not the letter of a word"), &help);
             } else if !row.words.contains_key(letter) {
                 let most = Role::ACT_WORDS.len();
                 let message = format!("the codes named as {} have more than {most} words in all", site.code);

@@ -1,7 +1,7 @@
 //! Tool change, spindle and coolant: what a block does beside moving, with the start of its move or after it.
 
 use super::lathe::holes::clamp_of;
-use super::{Command, Machine, spoken, tooling};
+use super::{Command, Machine, lathe, spoken, tooling};
 use crate::canon::{Act, Auxiliary, Op, Role, Running};
 use crate::control::trace::{Event, EventKind, Spindle, Told, Trace};
 use std::collections::BTreeMap;
@@ -128,6 +128,9 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
     };
     machine.says_running(Running::Spindle, trace);
     machine.spoken.doubt();
+    if starts(command) {
+        lathe::engaging::by_start(machine, trace);
+    }
     turn(machine, command, direction, trace);
 }
 
@@ -160,9 +163,12 @@ fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
 /// A builder's code that the profile names: the variables that it sets have what the machine puts there.
 pub(super) fn builders(machine: &mut Machine, command: &Command, act: Act, trace: &mut Trace) {
     let words = command.words.iter().filter_map(|(role, value)| Some((act.word_name(*role)?, *value)));
+    let words = words.filter(|(name, _)| !Act::is_dropped(name));
     let mut words: BTreeMap<String, f64> = words.collect();
     spoken::beside(machine, command, act, &mut words);
-    trace.push(EventKind::Act { name: act.name(), words });
+    if lathe::engaging::by_code(machine, act) {
+        trace.push(EventKind::Act { name: act.name(), words });
+    }
     machine.answers(act);
 }
 

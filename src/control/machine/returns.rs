@@ -32,6 +32,7 @@ pub(super) fn to(
     if named.is_empty() && machine.rules.reference_takes_all.ask(trace) {
         named = (0..AXES).collect();
     }
+    lathe::engaging::by_return(machine, &named, trace);
     if command.has_axes() {
         let by = machine.target(command);
         machine.rapid_to(by, trace);

@@ -119,9 +119,9 @@ fn wanted(act: Act, index: usize, span: crate::text::Span, context: &mut Context
     let what = format!(
         "{code} of the target takes {letter} ({word}), and the source's profile names no word of {name} for it"
     );
-    let site = context.source.site_of(act);
+    let own = own_code(act, context);
+    let site = context.source.profile().site.iter().find(|site| site.code == own);
     let there = if site.is_some_and(|site| site.target.is_some()) { letter.clone() } else { word };
-    let own = site.map_or("the code", |site| site.code.as_str());
     let help = format!(
         "write at {own} in the source's profile which letter says it: words = {{ S = \"{there}\" }}, S being the letter for a speed. If \
          nothing says it on the source, make sure that {code} does what it must without {letter}"
@@ -186,7 +186,7 @@ fn turned(
             );
             let help = format!(
                 "if it turns, write {} again in this block of the source; if not, write S in the block that starts the spindle",
-                context.source.site_of(act).map_or(name, |site| site.code.clone())
+                own_code(act, context)
             );
             let code = if known { Code::Conditional } else { Code::NoEquivalent };
             context.add(index, Diagnostic::new(code, span, what).with_help(help));
@@ -195,6 +195,12 @@ fn turned(
     }
 }
 
+/// A code for people: as it is written, and what it does.
 fn shown(act: Act, context: &Context<'_>) -> String {
-    context.source.site_of(act).map_or_else(|| format!("'{}'", act.shown()), |site| site.shown())
+    context.source.site_of(act).map_or_else(|| own_code(act, context), |site| site.shown())
+}
+
+/// The source's code of a name.
+fn own_code(act: Act, context: &Context<'_>) -> String {
+    context.source.code_of(act).map_or_else(|| format!("'{}'", act.shown()), |row| row.code.clone())
 }

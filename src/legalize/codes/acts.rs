@@ -38,6 +38,11 @@ fn replace(mut stmt: Stmt, index: usize, out: &mut Stmts, context: &mut Context<
     let named = nc.word(Role::Act).and_then(Expr::constant).and_then(Act::of);
     let Some(act) = named.filter(|_| nc.has(Op::Act)) else { return out.push(stmt) };
     if let Some(row) = context.target.code_of(act) {
+        let dropped = |item: &NcItem| match item {
+            NcItem::Word(role, _) => act.word_name(*role).is_some_and(|word| Act::is_dropped(&word)),
+            _ => false,
+        };
+        nc.items.retain(|item| !dropped(item));
         let taken = |role: &Role| row.words.values().any(|word| word == role);
         let strange = nc.items.iter().find_map(|item| match item {
             NcItem::Word(role, _) if role.is_act_word() && !taken(role) => act.word_name(*role),

@@ -12,8 +12,8 @@ use crate::legalize::calls::{
     text_returns,
 };
 use crate::legalize::codes::{
-    act_speeds, acts, beside_moves, by_number, code_chains, forbidden, machine_codes, missing, pauses,
-    substitutes, through_coolant,
+    act_speeds, acts, beside_moves, by_number, c_axis, code_chains, forbidden, machine_codes, missing,
+    pauses, substitutes, through_coolant,
 };
 use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
@@ -188,6 +188,9 @@ const BLOCKS: &[Pass] = &[
     )
     .when(act_speeds::concerns)
     .needs(&["code-chains"]),
+    Pass::rewrites("c-axis", "the C axis is engaged by the target's code for that", c_axis::run)
+        .when(c_axis::concerns)
+        .needs(&["code-chains"]),
     Pass::rewrites(
         "builders-codes",
         "builders' codes that the target has not become what the profile says",

@@ -8,6 +8,7 @@ pub(super) mod check;
 pub(super) mod contour;
 mod corner;
 mod drawn;
+pub(super) mod engaging;
 mod finish;
 pub(super) mod groove;
 pub(super) mod holes;
@@ -72,6 +73,8 @@ pub(super) struct Form {
 /// The state of a lathe.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lathe {
+    /// True where the C axis is engaged, as far as a code or a return has told (Q4).
+    pub c_engaged: bool,
     /// The number of the tool offset in force.
     pub offset: u32,
     /// The one table, or that of the wear.

@@ -18,6 +18,8 @@ pub struct Turning {
     pub machine_rapid: bool,
     /// The unit that a code must agree with (Z10), where the profile says it: true for inches.
     pub inch_set: Option<bool>,
+    /// True where the return of the C axis engages it, and a start of the spindle lets it go (Q4).
+    pub c_by_return: bool,
     /// True where a negative radius of an arc is an alarm (C7).
     pub radius_not_negative: bool,
     /// True where X is written as a radius (C1).
@@ -98,6 +100,7 @@ impl Turning {
                 .units()
                 .filter(|_| answer(Question::UnitsAgree) == Some("true"))
                 .map(|units| units == Units::Inch),
+            c_by_return: answer(Question::CAxisEngages) == Some("return"),
             radii: answer(Question::XCounts) == Some("radius"),
             letters: answer(Question::CornerLetters) == Some("letters"),
             valleys_by_word: answer(Question::RoughingValleys) == Some("word"),
