@@ -374,6 +374,7 @@ questions! {
     RadiusWordNames "radius.word.names" OneOf(&["radius", "unknown"]), "what the number of another tool than the one in the spindle does beside a code of the cutter radius, where its letter changes tools: it names a radius, and changes no tool", if "said";
     LengthNeverNamed "length.never.named" OneOf(&["zero", "tool", "unknown"]), "the tool length that its code takes where no number was ever named: none, or that of the tool in the spindle", if "op:length.plus";
     RadiusStartsOnArc "radius.starts.on.arc" YES, "cutter compensation may begin and end on an arc", if "said";
+    OffsetOfGroup "offset.of.group" OneOf(&["offset", "group", "unknown"]), "what offset 99 is (T0199, H99, D99): an offset like others, or with the management of tool life that of the tool of the group that T calls", if "op:threading";
     RadiusStillBlocks "radius.still.blocks" YES, "blocks without a move may stand between moves with cutter compensation, however many", if "said";
     ToolChangeWord "tool.change.word" OneOf(&["m6", "t", "unknown"]), "the word that changes the tool";
     ToolWordAgain "tool.word.again" OneOf(&["changes", "skipped", "unknown"]), "what a word that changes the tool does for the tool in the spindle", if "behaviour:tool.change.word=t";

@@ -171,7 +171,7 @@ impl Overlay {
     fn check_words(&mut self, site: &SiteCode, row: &CodeMeaning) {
         let mut told: BTreeMap<&str, &str> = BTreeMap::new();
         for (letter, meaning) in &site.words {
-            let drops = meaning.trim().is_empty() && (site.target.is_some() || site.name.is_some());
+            let drops = meaning.trim().is_empty() && site.target.is_some();
             if site.op.is_none()
                 && !drops
                 && let Some(other) = told.insert(meaning, letter)

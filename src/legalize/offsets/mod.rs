@@ -20,6 +20,7 @@ pub(in crate::legalize) mod radius_words;
 pub(in crate::legalize) mod set_position;
 pub(in crate::legalize) mod still_blocks;
 pub(in crate::legalize) mod table_writes;
+pub(in crate::legalize) mod tool_groups;
 pub(in crate::legalize) mod tool_lengths;
 pub(in crate::legalize) mod tool_word;
 pub(in crate::legalize) mod written_tools;

@@ -1,13 +1,13 @@
 //! Tool offsets that the target does not have.
 //!
-//! Law: a word that names a tool offset names one that the target has. Counter-example: `G43 H120 Z5.` for a control with 99
-//! offsets. How many there are is the table's row, or `offsets` of the machine profile where the machine has less. Side condition: a
+//! Law: a word that names a tool offset names one that the target has, and a code that writes one too. Counter-example: `G43 H120 Z5.`
+//! for a control with 99 offsets. How many there are is the table's row, or `offsets` of the machine profile where the machine has less. Side condition: a
 //! variable holds numbers that its program gives it; what calls give is the matter of `argument_offsets`, and of what an
 //! operator gives nothing is known.
 
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, turret_parts};
 use crate::ir::analysis::{Assigned, Constant};
 use crate::ir::{BlockId, Expr, Module, StmtKind};
 use crate::legalize::Context;
@@ -18,7 +18,8 @@ pub(super) const NAMES: [Role; 2] = [Role::LengthOffset, Role::RadiusOffset];
 
 /// True if the library names offsets, and the target's table says how many there are.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    NAMES.iter().any(|role| features.role(*role)) && last(context.target).is_some()
+    let names = NAMES.iter().chain(&[Role::Turret]).any(|role| features.role(*role));
+    (names || features.any_op(writes)) && last(context.target).is_some()
 }
 
 /// Refuses numbers past the last one.
@@ -30,8 +31,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         for (id, block) in program.ids().zip(&program.blocks) {
             for (at, stmt) in block.stmts.iter().enumerate() {
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
-                let values = NAMES.iter().filter_map(|role| nc.word(*role));
-                let numbers = values.flat_map(|value| numbers(value, &assigned, (id, at)));
+                let of = |value: &Expr| numbers(value, &assigned, (id, at));
+                let named = NAMES.iter().filter_map(|role| nc.word(*role)).flat_map(of);
+                let indexed = nc.word(Role::Turret).into_iter().flat_map(of).map(|word| turret_parts(word).1);
+                let written = nc.word(Role::OffsetRow).filter(|_| nc.ops().any(writes));
+                let written = written.into_iter().flat_map(of).map(row);
+                let numbers = named.chain(indexed).chain(written);
                 for number in numbers.filter(|number| *number > f64::from(last)) {
                     let title = &context.target.dialect().title;
                     let what = format!("this block names tool offset {number}, and the {title} has {last}");
@@ -43,6 +48,18 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             }
         }
     }
+}
+
+/// True for a code that writes a row of the table of tool offsets.
+fn writes(op: Op) -> bool {
+    use Op::*;
+    matches!(op, WriteLength | WriteLengthWear | WriteRadius | WriteRadiusWear | WriteOffset | WriteTurret)
+}
+
+/// The offset that a row is: of a lathe's geometry the number is this much higher.
+fn row(number: f64) -> f64 {
+    const GEOMETRY: f64 = 10_000.0;
+    if number > GEOMETRY { number - GEOMETRY } else { number }
 }
 
 /// The numbers that a word may have, as far as its program gives them.
@@ -63,5 +80,6 @@ pub(super) fn last(control: &Control) -> Option<u32> {
     let stated = control.profile().offsets.is_some();
     let rows = control.dialect().system.iter().filter(|row| row.state.is_tool_offset());
     let rows = rows.filter(|row| stated || row.origin.is_confirmed());
-    rows.filter_map(|row| row.subscripts.first()).map(|run| run.from + run.count - 1).max()
+    let of_rows = rows.filter_map(|row| row.subscripts.first()).map(|run| run.from + run.count - 1).max();
+    of_rows.or(control.profile().offsets)
 }

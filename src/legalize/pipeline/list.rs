@@ -19,7 +19,9 @@ use crate::legalize::expressions::halves;
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{joined, mixed_places, other_start, probed_places, start};
-use crate::legalize::offsets::{argument_offsets, offset_numbers, offset_rows, position_length, tool_word};
+use crate::legalize::offsets::{
+    argument_offsets, offset_numbers, offset_rows, position_length, tool_groups, tool_word,
+};
 use crate::legalize::operator::{formatted, omitted, shown_stops, variable_names};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, dates, modal_reads, most_values, output_codes, output_states,
@@ -178,6 +180,8 @@ const BLOCKS: &[Pass] = &[
     )
     .when(code_chains::concerns)
     .changes_flow(),
+    Pass::reports("tool-groups", "refuses offsets of the tools of a group", tool_groups::run)
+        .when(tool_groups::concerns),
     Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
         .when(|c, _| c.has(Feature::Code))
         .needs(&["code-chains"]),
