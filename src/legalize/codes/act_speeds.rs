@@ -11,8 +11,9 @@ mod live;
 use crate::canon::{Act, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::over_calls::OverCalls;
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
+use crate::legalize::codes::ahead::ahead;
 use crate::legalize::cycles::tap_leads::Speed;
 use crate::legalize::features::Features;
 use live::{Known, Live, Lives, acts, names_tool};
@@ -159,9 +160,7 @@ fn turned(
                         NcItem::Word(Role::Act, Expr::Number(act.number())),
                         NcItem::Word(ours, speed),
                     ];
-                    let aside = SourceInfo { span, skip: stmt.site.skip, ..SourceInfo::default() };
-                    let site = std::mem::replace(&mut stmt.site, aside);
-                    out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
+                    out.push(ahead(stmt, items));
                 }
                 (None, Some(_)) => {
                     let what = format!(

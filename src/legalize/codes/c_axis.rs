@@ -10,8 +10,9 @@ use crate::diag::{Asks, Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Control, Machine, Question};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, Stmts};
 use crate::legalize::Context;
+use crate::legalize::codes::ahead::ahead;
 use crate::legalize::features::Features;
 use crate::text::Span;
 
@@ -65,9 +66,7 @@ fn write(module: &mut Module, context: &mut Context<'_>) {
 fn put(stmt: &mut Stmt, name: &str, out: &mut Stmts) {
     let number = Expr::Number(Act::named(name).number());
     let items = vec![NcItem::Op(Op::Act), NcItem::Word(Role::Act, number)];
-    let aside = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
-    let site = std::mem::replace(&mut stmt.site, aside);
-    out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
+    out.push(ahead(stmt, items));
 }
 
 fn lacks(name: &str, index: usize, span: Span, context: &mut Context<'_>) {

@@ -2,6 +2,7 @@
 
 pub(in crate::legalize) mod act_speeds;
 pub(in crate::legalize) mod acts;
+pub(in crate::legalize) mod ahead;
 pub(in crate::legalize) mod beside_moves;
 pub(in crate::legalize) mod by_number;
 pub(in crate::legalize) mod c_axis;

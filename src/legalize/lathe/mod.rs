@@ -25,6 +25,7 @@ pub mod interpolations;
 pub mod lone_passes;
 pub mod modes;
 pub mod other_kind;
+pub mod pass_run_outs;
 mod pen;
 pub mod place;
 mod places;

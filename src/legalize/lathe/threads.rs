@@ -9,7 +9,7 @@ use crate::assume::Predicate;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{Module, Nc};
+use crate::ir::Nc;
 use crate::legalize::Context;
 use crate::text::Span;
 
@@ -26,36 +26,6 @@ pub(super) fn beyond(nc: &Nc, values: &Values, target: &Control) -> Option<(&'st
         Some((UNFINISHED, "give the source an allowance for a finishing pass"))
     } else {
         None
-    }
-}
-
-/// Says that single passes of a thread run out at their ends by what another setting says on the target. Of two controls without
-/// such a setting both have the parameter of their maker.
-pub fn run_outs(module: &Module, context: &mut Context<'_>) {
-    let of = |control: &Control| {
-        let found = setting(control, Op::Threading, Role::ThreadRunOut);
-        found.map(|(name, value)| (name.replacen('.', " ", 1), value))
-    };
-    let (ours, theirs) = (of(context.source), of(context.target));
-    let known = |one: &Option<(String, Option<f64>)>| one.as_ref().and_then(|(_, value)| *value);
-    if ours.is_none() && theirs.is_none() || known(&ours).is_some() && known(&ours) == known(&theirs) {
-        return;
-    }
-    let by = |one: &Option<(String, Option<f64>)>, control: &Control| {
-        let name = one.as_ref().map_or("a parameter", |(name, _)| name.as_str());
-        format!("{name} ({})", control.dialect().title)
-    };
-    let what = format!(
-        "a single pass of a thread runs out at its end by {} on the source, and by {} on the target: make sure that both say the same",
-        by(&ours, context.source),
-        by(&theirs, context.target)
-    );
-    for (index, program) in module.programs.iter().enumerate() {
-        let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-        if let Some(stmt) = stmts.find(|stmt| stmt.kind.has_op(Op::ThreadingPass)) {
-            let finding = Diagnostic::new(Code::Conditional, stmt.site.span, what.clone());
-            context.add_once(index, &what, finding.asked_once());
-        }
     }
 }
 

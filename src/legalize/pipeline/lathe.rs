@@ -6,8 +6,8 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     bare_starts, contour_ends, contour_left, contour_types, contours, corners, counts, cycle_words, faces,
-    held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes, modes, roughing,
-    run_outs, steps, tap_feeds, thread_ways, threads, written_corners, x_counts, zeros,
+    held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes, modes,
+    pass_run_outs, roughing, run_outs, steps, tap_feeds, thread_ways, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -124,8 +124,12 @@ pub(super) const LATHE: &[Pass] = &[
         thread_ways::run,
     )
     .when(thread_ways::concerns),
-    Pass::reports("thread-ends", "checks by what single passes of threads run out", threads::run_outs)
-        .when(|c, _| c.op(Op::ThreadingPass)),
+    Pass::edits(
+        "thread-ends",
+        "single passes of threads run out as they do on the source",
+        pass_run_outs::run,
+    )
+    .when(|c, _| c.op(Op::ThreadingPass)),
     Pass::reports("hole-pecks", "checks how far the pecks of a lathe's holes go back", holes::pecks)
         .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
     Pass::rewrites("run-outs", "threads are told that they do not run out by a word", run_outs::run)

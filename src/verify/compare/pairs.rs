@@ -85,7 +85,8 @@ pub(super) fn acts<'r>(
     if brought(source.0.control, target.0.control) {
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
-    [joined(threads::again(ours), is_cut(source.1)), joined(threads::again(theirs), is_cut(target.1))]
+    let [ours, theirs] = threads::passes(ours, theirs);
+    [joined(ours, is_cut(source.1)), joined(theirs, is_cut(target.1))]
 }
 
 /// Two runs side by side.

@@ -16,8 +16,25 @@ const NEAR: f64 = 1e-3;
 const X: usize = 0;
 const Z: usize = 2;
 
-/// Leaves out how the tool comes from one such pass to the next.
-pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+/// Leaves out, on both sides, how the tool comes from one such pass to the next.
+pub fn passes<'a>(ours: Vec<Act<'a>>, theirs: Vec<Act<'a>>) -> [Vec<Act<'a>>; 2] {
+    let open = is_open(&ours, &theirs);
+    [again(ours, open), again(theirs, open)]
+}
+
+/// True where of some thread only one side knows whether it runs out: then it may run out on the other too.
+fn is_open(ours: &[Act<'_>], theirs: &[Act<'_>]) -> bool {
+    fn known<'a>(acts: &'a [Act<'_>]) -> impl Iterator<Item = bool> + 'a {
+        acts.iter().filter_map(|act| match &*act.what {
+            EventKind::Thread { chamfer, .. } => Some(chamfer.is_some()),
+            _ => None,
+        })
+    }
+    known(ours).zip(known(theirs)).any(|(here, there)| here != there)
+}
+
+/// Leaves out how the tool comes from one such pass to the next; `open` where threads may run out on one of the two sides.
+fn again(acts: Vec<Act<'_>>, open: bool) -> Vec<Act<'_>> {
     let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
     // The last pass, and the place after it.
     let mut last: Option<(Position, Position, usize)> = None;
@@ -25,7 +42,7 @@ pub fn again(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
         match (&*act.what, last) {
             (EventKind::Thread { from, to, chamfer, .. }, before) => {
                 let (from, to) = (*from, *to);
-                let runs_out = chamfer.is_some_and(|length| length > 0.0);
+                let runs_out = open || chamfer.is_some_and(|length| length > 0.0);
                 let way = before
                     .filter(|(_, end, after)| beside(out.get(*after..).unwrap_or_default(), *end, from));
                 let same = |(start, end, _)| apart(&start, &from).max(apart(&end, &to)) <= NEAR;

@@ -86,9 +86,13 @@ impl Machine {
         thread_to(self, to, cut, trace)
     }
 
-    /// The run-out of a single pass: on a control with two blocks only a parameter of the machine knows it (P9).
+    /// The run-out of a single pass: with two blocks that of a parameter, if the profile gives it and no block changed it (P9).
     pub(super) fn single_chamfer(&self, lead: f64, trace: &mut Trace) -> Option<(f64, f64)> {
-        if self.rules.turning.two_blocks { None } else { self.set_chamfer(lead, trace) }
+        let leads = self.rules.turning.run_out.filter(|_| self.lathe.thread.digits.is_none());
+        match self.rules.turning.two_blocks {
+            true => leads.map(|leads| (leads * lead, 45.0)),
+            false => self.set_chamfer(lead, trace),
+        }
     }
 
     /// The run-out that the settings of the control say.
@@ -97,11 +101,10 @@ impl Machine {
             return Some((0.0, 0.0));
         }
         let turning = &self.rules.turning;
-        let Some(leads) = turning.run_out else {
+        if turning.run_out.is_none() {
             trace.doubt("machine:lathe.thread.runout");
-            return None;
-        };
-        Some((leads * lead, turning.run_out_angle.unwrap_or(45.0)))
+        }
+        turning.run_out.map(|leads| (leads * lead, turning.run_out_angle.unwrap_or(45.0)))
     }
 }
 
