@@ -3,6 +3,9 @@
 //! The emulated controls act in one way and say so in the trace; conversions that rest on it report it. A machine
 //! profile confirms one by its name, once it was tried on the machine: then the emulation's way is the machine's.
 
+/// The one that says which way a boring bar leaves the wall; a setting or a parameter may say another.
+pub const SHIFT: &str = "machine:cycle.shift.direction";
+
 /// Every matter by its name, with what the emulated controls do.
 pub const ALL: &[(&str, &str)] = &[
     ("machine:address.not.programmed", "an address that was never programmed reads as 0"),

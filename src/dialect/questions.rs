@@ -364,6 +364,7 @@ questions! {
     InitialValue "initial.value" OneOf(&["zero", "vacant", "kept", "unknown"]), "what a variable holds if nothing has set it";
     CommonAtPowerOn "common.at.power.on" OneOf(&["vacant", "kept", "unknown"]), "what common variables hold after power-on";
     PositionFrame "position.frame" OneOf(&["work", "machine", "unknown"]), "the frame of the position variables";
+    CycleShift "cycle.shift" OneOf(&["x+", "x-", "y+", "y-", "unknown"]), "which way a boring cycle moves the tool off the wall, where its word says only how far", if "op:cycle.bore.back";
     RadiusOffsetTable "radius.offset.table" OneOf(&["radius", "diameter", "setting", "unknown"]), "what the cutter table holds";
     OffsetActiveImmediately "offset.active.immediately" YES, "a work offset that is written while selected counts at once";
     LengthActiveImmediately "length.active.immediately" YES, "a tool length that is written while it is in force counts from the next block on, before its number is named again", if "said";

@@ -3,9 +3,20 @@
 use super::Machine;
 use super::cycle::{Cycle, Planes};
 use super::rigid::Rigid;
+use super::rules::{Fact, fact};
 use crate::canon::Op;
 use crate::control::scenario::Axes;
 use crate::control::trace::{EventKind, FeedMode, Position, Spindle, Told, Trace};
+use crate::dialect::{Control, Question, matters};
+
+/// The way of a boring cycle's shift: what was tried on the machine counts where no setting says it.
+pub(super) fn shift_of(control: &Control) -> Fact<(bool, f64)> {
+    let read = |value: &str| Some((value.starts_with('y'), if value.ends_with('-') { -1.0 } else { 1.0 }));
+    let tried = control.has_tried(matters::SHIFT);
+    let known = |value: &str| if value == "unknown" { None } else { read(value) };
+    let found = fact(control, Question::CycleShift, known, (false, 1.0));
+    Fact { unsure: found.unsure.filter(|_| !tried), ..found }
+}
 
 /// Drills where the machine stands over the hole, along an axis, and leaves it as the return plane says.
 pub(super) fn hole(
@@ -175,8 +186,8 @@ impl Driver<'_> {
         let (mut dx, mut dy) = cycle.shift;
         if let Some(by) = cycle.peck {
             // Which way Q shifts is a parameter of the machine, and its sign is ignored.
-            self.trace.doubt("machine:cycle.shift.direction");
-            (dx, dy) = (by.abs(), 0.0);
+            let (second, sign) = self.machine.rules.cycle_shift.ask(self.trace);
+            (dx, dy) = if second { (0.0, sign * by.abs()) } else { (sign * by.abs(), 0.0) };
         }
         let mut to = self.machine.position;
         to[first] += sign * dx;

@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 /// A fact: the answer acted by, and its name if nobody confirmed it.
 #[derive(Clone, Debug)]
 pub struct Fact<T> {
-    value: T,
-    unsure: Option<&'static str>,
+    pub(super) value: T,
+    pub(super) unsure: Option<&'static str>,
 }
 
 impl<T: Copy> Fact<T> {
@@ -102,6 +102,8 @@ pub struct Rules {
     pub hole_clamp_acts: Fact<()>,
     /// A G code for its own block, other than a wait, takes away what the pass in force was told.
     pub pass_cleared: Fact<bool>,
+    /// Whether a boring cycle goes off the wall along the second axis of the plane, and which way.
+    pub cycle_shift: Fact<(bool, f64)>,
     pub cycle_block_runs: Fact<bool>,
     pub cycle_runs_without_axes: Fact<bool>,
     pub cycle_runs_without_words: Fact<bool>,
@@ -225,9 +227,7 @@ impl Rules {
                     Some((control.act_of(site)?, sets.collect()))
                 })
                 .collect(),
-            speaks: (control.profile().site.iter())
-                .filter_map(|site| control.act_of(site).and_then(|act| Some((act, control.speed_word(act)?))))
-                .collect(),
+            speaks: super::spoken::all(control),
             ends: Pause::ALL.map(|pause| {
                 Running::ALL.map(|running| {
                     let ends = control.ends(pause, running);
@@ -261,6 +261,7 @@ impl Rules {
             hole_clamp: control.hole_clamp(),
             hole_clamp_acts: fact(control, Question::HoleClamp, only("plane"), ()),
             pass_cleared: fact(control, Question::PassData, word("cleared", "kept"), false),
+            cycle_shift: super::expand::shift_of(control),
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
                 .or_silent(control, Question::CycleBlockRuns),
             cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),

@@ -3,6 +3,7 @@
 use super::{Command, Machine};
 use crate::canon::{Act, Op, Role};
 use crate::control::trace::{EventKind, Trace};
+use crate::dialect::Control;
 use std::collections::BTreeMap;
 
 /// What such codes go by.
@@ -51,4 +52,10 @@ pub(super) fn again(machine: &Machine, command: &Command, trace: &mut Trace) {
         name: act.name(),
         words: name.into_iter().map(|name| (name, speed)).collect(),
     });
+}
+
+/// The word that is S of each of a control's builders' codes that reads it.
+pub(super) fn all(control: &Control) -> BTreeMap<Act, Role> {
+    let sites = control.profile().site.iter().filter_map(|site| control.act_of(site));
+    sites.filter_map(|act| Some((act, control.speed_word(act)?))).collect()
 }

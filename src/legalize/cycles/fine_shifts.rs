@@ -2,19 +2,17 @@
 //!
 //! Law: one word says how far the tool goes along the first axis of the plane, whatever its sign; the other two say by how much it
 //! goes along each axis. So `Q0.2` is `I0.2`, and `I0.2` alone is `Q0.2`. Side conditions: the shift goes along the first axis, and
-//! in plus (a fact of the machine with the one word); the cycle is told the word itself, as others share the letters.
+//! the way of the machine with the one word, plus where nobody says it; the cycle is told the word itself, as others share the letters.
 //! Counter-example: `G83 Q5.`, then `G76` without Q.
 
-use crate::canon::{Func, Group, Op, Role};
+use super::shift_ways::{way, write};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Side, matters};
+use crate::dialect::{Control, Question, Side};
 use crate::ir::{Expr, Nc, NcItem};
 use crate::legalize::Context;
 use crate::text::Span;
 use std::collections::BTreeMap;
-use thin_vec::thin_vec;
-
-const FACT: &str = "machine:cycle.shift.direction";
 
 /// Says the shift of a fine bore as the target's code takes it.
 pub(super) fn fit(
@@ -46,22 +44,25 @@ pub(super) fn fit(
     let Some(by) = nc.word(role).filter(|by| op == Op::CycleFineBore && !by.may_be_vacant()).cloned() else {
         return;
     };
-    let new = match (role, by.constant()) {
-        (Role::CycleQ, Some(by)) => NcItem::Word(Role::CycleI, Expr::Number(by.abs())),
-        (Role::CycleQ, None) => NcItem::Word(Role::CycleI, Expr::Call(Func::Abs, thin_vec![by])),
-        (_, Some(by)) if by > 0.0 && across => NcItem::Word(Role::CycleQ, Expr::Number(by)),
-        _ => return,
-    };
-    for item in &mut nc.items {
-        if matches!(item, NcItem::Word(of, _) if *of == role) {
-            *item = new.clone();
-        }
-    }
-    nc.items.retain(|item| role == Role::CycleQ || !matches!(item, NcItem::Word(Role::CycleJ, _)));
     let one_word = if side == Side::Source { context.source } else { context.target };
-    if !one_word.has_tried(FACT) {
-        let what = matters::meaning(FACT).unwrap_or_default();
-        context.unconfirmed(index, side, span, FACT, what);
+    let known = way(one_word);
+    let (second, minus) = known.unwrap_or_default();
+    match (role, by.constant()) {
+        (Role::CycleQ, _) => write(nc, (second, minus)),
+        (_, Some(by)) if !second && across && by != 0.0 && (by < 0.0) == minus => {
+            for item in &mut nc.items {
+                if matches!(item, NcItem::Word(of, _) if *of == role) {
+                    *item = NcItem::Word(Role::CycleQ, Expr::Number(by.abs()));
+                }
+            }
+            nc.items.retain(|item| !matches!(item, NcItem::Word(Role::CycleJ, _)));
+        }
+        _ => return,
+    }
+    match side {
+        _ if known.is_some() => {}
+        Side::Source => context.rests_on_source(index, span, Question::CycleShift),
+        Side::Target => context.rests_on_target(index, span, Question::CycleShift),
     }
 }
 

@@ -23,6 +23,7 @@ pub(in crate::legalize) mod plane_variables;
 pub(in crate::legalize) mod pockets;
 pub(in crate::legalize) mod rigid_cycles;
 pub(in crate::legalize) mod rigid_taps;
+pub(in crate::legalize) mod shift_ways;
 pub(in crate::legalize) mod stored_places;
 pub(in crate::legalize) mod tap_leads;
 mod tap_waits;

@@ -6,7 +6,7 @@ use crate::canon::{Op, Role};
 use crate::legalize::codes::{lookahead, waits};
 use crate::legalize::cycles::{
     cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, first_holes, hole_moves,
-    missing_pecks, uneven_pecks,
+    missing_pecks, shift_ways, uneven_pecks,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::operator::alarms;
@@ -69,6 +69,9 @@ pub(super) const CYCLES: &[Pass] = &[
     Pass::rewrites("missing-pecks", "peck cycles that are told no pecks drill in one go", missing_pecks::run)
         .when(|c, context| is_mill(context) && missing_pecks::concerns(c, context))
         .needs(&["cycle-here", "even-pecks"]),
+    Pass::edits("shift-ways", "boring bars leave the wall the way they do on the source", shift_ways::run)
+        .when(shift_ways::concerns)
+        .needs(&["cycle-here"]),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
         .when(|c, context| {
             let words = cycle_words::ROLES.iter().any(|role| c.role(*role));
