@@ -247,9 +247,8 @@ impl Rules {
             repeats_move: yes(control, Question::RepeatMoves, false),
             zero_repeats_moves: yes(control, Question::CycleL0Moves, false),
             speed_kept: fact(control, Question::SpeedKept, word("mode", "turns"), true),
-            taps_rigid: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always"),
-            through_stays: (control.behaviour(Question::CoolantOffThrough))
-                .is_some_and(|row| row.value == "false"),
+            taps_rigid: answers::are(control, Question::TapRigid, "always"),
+            through_stays: answers::are(control, Question::CoolantOffThrough, "false"),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
             finish_allowance: fact(
@@ -334,8 +333,7 @@ impl Rules {
             ),
             machine_move_is_rapid: control.is(Question::MachineMoveRapid),
             length_moves: control.is(Question::LengthMoves),
-            turns_by_sign: control.machine() == Machine::Mill
-                && control.behaviour(Question::RotaryWay).is_some_and(|row| row.value == "sign"),
+            turns_by_sign: answers::turns_by_sign(control),
             cycle_runs_by_rotary: yes(control, Question::CycleRunsByRotary, true)
                 .or_silent(control, Question::CycleRunsByRotary),
             length_after_change: fact(control, Question::ChangeLength, length_after, LengthAfter::Kept)

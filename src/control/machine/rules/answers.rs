@@ -1,5 +1,7 @@
 //! Answers that are more than yes or no.
 
+use crate::dialect::{Control, Machine, Question};
+
 /// What the offset values of cutter radii are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RadiusTable {
@@ -27,4 +29,14 @@ pub enum NoCentre {
     Alarm,
     /// A straight move.
     Straight,
+}
+
+/// True for a control that answers a question so.
+pub(super) fn are(control: &Control, question: Question, with: &str) -> bool {
+    control.behaviour(question).is_some_and(|row| row.value == with)
+}
+
+/// True for a mill whose rotary axes go the way that the sign of an angle says.
+pub(super) fn turns_by_sign(control: &Control) -> bool {
+    control.machine() == Machine::Mill && are(control, Question::RotaryWay, "sign")
 }
