@@ -118,7 +118,14 @@ impl Question {
 
     /// True for what a shop says of its programs, whatever the control can do.
     pub const fn is_choice(self) -> bool {
-        matches!(self, Self::Corners | Self::MachinePlaces | Self::PowerOffValues | Self::TapDwell)
+        matches!(
+            self,
+            Self::Corners
+                | Self::MachinePlaces
+                | Self::PowerOffValues
+                | Self::StandingResults
+                | Self::TapDwell
+        )
     }
 
     /// True for the answer that a setting gives it, of a question that a table may leave open.
@@ -331,6 +338,7 @@ questions! {
     BlockAssignsFirst "block.assigns.first" YES, "words use the values that their own block gave to variables before them";
     RepeatMoves "repeat.moves" YES, "a repeat word on a move runs the block so many times", if "role:repeat";
     ReferenceLength "reference.length" OneOf(&["kept", "cancelled", "cancelled.along", "unknown"]), "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves", if "op:reference.return";
+    StandingResults "standing.results" OneOf(&["same", "other", "unknown"]), "whether programs that stand in this machine (probing macros, say) put their results into the variables of the numbers that the programs read", if "said";
     MachinePlaces "machine.places" OneOf(&["same", "other", "unknown"]), "whether the places in machine coordinates that the programs name (moves to such a place, and work offsets that they write as numbers) are right on this machine too, or are those of another machine", if "said";
     MachineMoveRapid "machine.move.rapid" YES, "a move in machine coordinates is a rapid, whatever interpolation is in force", if "said";
     UnitsAgree "units.agree" YES, "a code for another unit than the control is set to is an alarm", if "said";

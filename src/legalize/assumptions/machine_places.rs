@@ -34,12 +34,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let in_steps = in_steps.is_some_and(|row| row.value == "increments");
     let other = context.target.behaviour(QUESTION).is_some_and(|row| row.value == "other");
     for (index, program) in module.programs.iter().enumerate() {
+        let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+        let cancels = stmts.any(|stmt| stmt.kind.has_op(Op::ShiftCancel));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);
             for stmt in &block.stmts {
                 state.step(stmt);
                 let names = match &stmt.kind {
-                    StmtKind::Nc(nc) => of_block(nc, &state, &numbers, (one_family, in_steps)),
+                    StmtKind::Nc(nc) => of_block(nc, &state, &numbers, [one_family, in_steps, cancels]),
                     StmtKind::Assign { target: Place::System(Sys::WorkOffset, _), value } => {
                         numbers.is_place(None, value, one_family)
                     }
@@ -59,9 +61,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 }
 
 /// True if a block names such a place; `state` is what is in force in it.
-fn of_block(nc: &Nc, state: &Modal, numbers: &Numbers, (one_family, in_steps): (bool, bool)) -> bool {
+fn of_block(nc: &Nc, state: &Modal, numbers: &Numbers, [one_family, in_steps, cancels]: [bool; 3]) -> bool {
     let steps = state.op(Group::Distance) == Some(Op::Incremental);
-    let shiftless = state.op(Group::WorkOffset) == Some(Op::ShiftCancel) && nc.moves();
+    let cancelled = match state.op(Group::WorkOffset) {
+        Some(op) => op == Op::ShiftCancel,
+        None => state.may_be_cancelled || cancels,
+    };
+    let shiftless = cancelled && nc.moves();
     let once = nc.has(Op::MachineOnce) && !(steps && in_steps);
     let counts = once || !steps && (shiftless || nc.has(Op::WriteWork));
     // A shift of all work offsets is no place.

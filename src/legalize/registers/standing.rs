@@ -6,14 +6,16 @@
 //! another one is asked once. Counter-example: `#714` that becomes `#109`, and `O9810`, which reads `#714`.
 
 use super::names::name_of;
-use super::outside::{Moved, in_words, is_shared, named, read, written_by};
+use super::outside::{Moved, in_words, is_shared, named, read, written, written_by};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question, Side};
 use crate::ir::{Module, Var};
 use crate::legalize::Context;
 use crate::legalize::calls::standing;
 use crate::syntax::ProgramName;
 use std::collections::BTreeMap;
+
+const QUESTION: Question = Question::StandingResults;
 
 /// Reports variables and registers that such a program may know by another meaning.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -23,6 +25,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     };
     let tied = standing::tied_to(callers.keys().copied(), &context.called(module).pairs(module));
     moved(module, &|at| tied.contains(&at), context);
+    let callers: Vec<usize> = callers.keys().copied().collect();
+    results(module, &callers, context);
     let taken = context.registers.taken_in_words();
     if !taken.is_empty() && !context.target.states_reserved() {
         let example = called.first().map(|number| ProgramName::Number(*number).short().into_owned());
@@ -91,5 +95,38 @@ fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Conte
         let finding =
             Diagnostic::new(Code::Conditional, module.programs[index].site.span, what).with_help(help);
         context.add(index, if runs_with(index) { finding } else { finding.asked_once() });
+    }
+}
+
+/// Variables that a program reads after it called such a program, and that nothing in the library writes: results, as those of a
+/// probing macro. The makers of such macros have other variables for them on another control.
+fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
+    let other = match context.target.behaviour(QUESTION).map(|row| row.value.as_str()) {
+        Some("same") => return,
+        answer => answer == Some("other"),
+    };
+    let written = written(module).vars;
+    for index in callers.iter().copied() {
+        let Some(program) = module.programs.get(index) else { continue };
+        let names: Vec<String> = read(program)
+            .iter()
+            .filter(|var| is_shared(var.class) && !written.contains(*var))
+            .filter_map(|var| name_of(var, module, context.source))
+            .collect();
+        if names.is_empty() {
+            continue;
+        }
+        let listed = names.join(", ");
+        let span = program.site.span;
+        if other {
+            let what = format!(
+                "{listed}, which a program that stands in the machine sets, and which this one reads: the target's sets other variables"
+            );
+            let help = "write the numbers of the target's variables into the conversion";
+            context.add(index, Diagnostic::new(Code::Conditional, span, what).with_help(help));
+        } else {
+            let what = format!("{} ({listed})", QUESTION.meaning());
+            context.unconfirmed(index, Side::Target, span, QUESTION.fact(), what);
+        }
     }
 }
