@@ -357,8 +357,9 @@ questions! {
     CycleRWord "cycle.r.word" YES, "a word R beside a drilling cycle is the retract plane, as R0 is";
     MirrorOffAxes "mirror.off.axes" OneOf(&["named", "all", "unknown"]), "what the end of mirroring ends that names axes: those, or every axis", if "said";
     MirrorOffBare "mirror.off.bare" OneOf(&["all", "unknown"]), "what the end of mirroring ends that names no axis: every one", if "said";
-    MirrorAbout "mirror.about" OneOf(&["word", "zero", "unknown"]), "the point about which an axis is mirrored: the \
-                                                                     coordinate in its word, or the work zero", if "op:mirror.on";
+    MirrorAbout "mirror.about" OneOf(&["word", "zero", "sign", "unknown"]), "the point about which an axis is mirrored: the \
+                                                                     coordinate in its word, or the work zero, whatever the word \
+                                                                     says or if its sign is minus", if "op:mirror.on";
     ShapeFrameCodes "shape.frame.codes" OneOf(&["kept", "unknown"]), "whether a change of plane or of work offset, a set position, a move in machine coordinates and a return to the reference position may stand while coordinates are turned, scaled or mirrored, and do then what they do without", if "op:mirror.on or op:rotate.on";
     ScaleReachesCycle "scale.reaches.cycle" YES, "scaling reaches the planes and the pecks of a drilling cycle", if "op:scale.on";
     ShiftLocalIsExternal "shift.local.is.external" YES, "the local shift and the shift of all work offsets are one register", if "op:wcs.local";

@@ -162,6 +162,8 @@ pub struct Rules {
     pub cycle_runs_by_rotary: Fact<bool>,
     pub length_after_change: Fact<LengthAfter>,
     pub mirrors_about_word: Fact<bool>,
+    /// True if the word of an axis is a sign: minus mirrors it about zero, and plus ends that.
+    pub mirrors_by_sign: bool,
     pub mirror_off_names: Fact<bool>,
     pub mirror_off_bare: Fact<()>,
     pub positions_hold_length: Fact<bool>,
@@ -342,6 +344,7 @@ impl Rules {
             mirror_off_names: fact(control, Question::MirrorOffAxes, word("named", "all"), true)
                 .or_silent(control, Question::MirrorOffAxes),
             mirror_off_bare: fact(control, Question::MirrorOffBare, only("all"), ()),
+            mirrors_by_sign: control.behaviour(Question::MirrorAbout).is_some_and(|row| row.value == "sign"),
             mirrors_about_word: fact(control, Question::MirrorAbout, word("word", "zero"), true),
             frame_codes_when_shaped: fact(control, Question::ShapeFrameCodes, only("kept"), ()),
             scale_reaches_cycle: fact(control, Question::ScaleReachesCycle, only("true"), ()),

@@ -113,6 +113,10 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
             }
             Op::MirrorOn => {
                 for (axis, value) in machine.named_axes(command) {
+                    if machine.rules.mirrors_by_sign {
+                        machine.frame.mirror[axis] = (value < 0.0).then_some(0.0);
+                        continue;
+                    }
                     let by_word = value == 0.0 || machine.rules.mirrors_about_word.ask(trace);
                     machine.frame.mirror[axis] = Some(if by_word { value } else { 0.0 });
                 }

@@ -4,19 +4,19 @@
 //! in its word; about 0 both do the same. Side conditions: codes that choose or leave the frame of coordinates may stand
 //! under a rotation, and scaling may stand with a drilling cycle, only where that is known of both controls; where it is
 //! not, the place is for review. Where it ends: a mirror about another coordinate than the work zero is refused where
-//! the target mirrors about the zero. The end of mirroring names no axes where a control is not known to take them and the block
+//! the target mirrors about the zero, and one by a sign is written as that. The end of mirroring names no axes where a control is not known to take them and the block
 //! ends all; and where the target is not known to end all by the code
 //! alone, it names those that the library mirrors, in a block of its own. An angle or a factor that is not written, which each control takes from a setting of its
 //! own, is written out where the source's profile has it, and refused where not.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question, Row};
+use crate::dialect::{Control, Question, Row, Side};
 use crate::ir::analysis::behind::behind;
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 const ABOUT: Question = Question::MirrorAbout;
 const OFF: Question = Question::MirrorOffAxes;
@@ -44,9 +44,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let span = stmt.site.span;
             if let StmtKind::Nc(nc) = &mut stmt.kind
                 && nc.has(Op::MirrorOn)
-                && !about_zero(nc)
             {
-                mirror(nc, index, span, context);
+                if !about_zero(nc) {
+                    mirror(nc, index, span, context);
+                }
+                by_sign(nc, index, span, context);
             }
             if let StmtKind::Nc(nc) = &mut stmt.kind {
                 write_out(nc, context.source);
@@ -248,7 +250,9 @@ fn mirror(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>) {
     if agree(ABOUT, context) {
         return;
     }
-    let is_zero = |control: &Control| control.behaviour(ABOUT).is_some_and(|row| row.value == "zero");
+    let is_zero = |control: &Control| {
+        control.behaviour(ABOUT).is_some_and(|row| ["zero", "sign"].contains(&row.value.as_str()))
+    };
     context.rests_on_source(index, span, ABOUT);
     if is_zero(context.source) {
         for item in &mut nc.items {
@@ -270,6 +274,37 @@ fn mirror(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>) {
         context.rests_on_target(index, span, ABOUT);
     }
 }
+
+/// Writes the sign that mirrors an axis about zero, where the target takes one.
+fn by_sign(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>) {
+    if context.target.code_for(Op::MirrorOn, &BTreeMap::new()).is_none() {
+        return;
+    }
+    let row = context.target.behaviour(ABOUT);
+    match row.map(|row| row.value.as_str()) {
+        Some("sign") => {
+            for item in &mut nc.items {
+                if let NcItem::Word(role, value) = item
+                    && role.is_axis()
+                    && value.constant() == Some(0.0)
+                {
+                    *value = Expr::Number(-1.0);
+                }
+            }
+        }
+        // About 0 a place and the zero are one.
+        Some("unknown") if row.is_some_and(|row| row.one_of.iter().any(|one| one == "sign")) => {
+            let finding = Diagnostic::new(Code::NoEquivalent, span, UNSAID);
+            let help = context.target.to_settle(ABOUT.fact(), Side::Target);
+            let setting = format!("behaviour.{}=sign", ABOUT.name());
+            context.add_once(index, UNSAID, finding.with_help(help).lacking_there(setting));
+        }
+        _ => {}
+    }
+}
+
+const UNSAID: &str =
+    "no source says what the number beside the target's code for mirroring means: a place, or a sign";
 
 /// True for a code that chooses or leaves the frame of coordinates.
 fn is_of_frame(op: Op) -> bool {

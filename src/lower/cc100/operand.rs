@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use crate::canon::{Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, Question};
 use crate::ir::{Expr, Nc, NcItem};
 use crate::lower::common::{constant, otherwise};
@@ -113,12 +114,50 @@ impl Lowering<'_> {
                 self.findings.not_understood(span, "no source says whose radius is taken here");
             }
         }
+        if nc.has(Op::MirrorOn) {
+            self.mirror(nc, span);
+        }
         let cycle = nc.ops().find(|op| op.is_cycle());
         if let Some(op) = cycle {
             self.cycle(op, nc, items, span);
         }
     }
 }
+
+impl Lowering<'_> {
+    /// Takes the words of a mirror for what the profile says they are. By a sign it is about zero.
+    fn mirror(&mut self, nc: &mut Nc, span: Span) {
+        let answer = self.findings.behaviour(Question::MirrorAbout, span);
+        let axes = nc.items.iter_mut().filter_map(|item| match item {
+            NcItem::Word(role, value) if role.is_axis() => Some(value),
+            _ => None,
+        });
+        match answer {
+            Some("sign") => {
+                for value in axes {
+                    if value.constant().is_none_or(|sign| sign >= 0.0) {
+                        self.findings.not_understood(span, NOT_MINUS);
+                    }
+                    *value = Expr::Number(0.0);
+                }
+            }
+            Some(_) => {}
+            None => {
+                let help = "say in the machine profile which it is, under [behaviours]: \"mirror.about\" = \"sign\" (minus mirrors the axis about \
+                            the zero in force), \"word\" (about that place), or \"zero\" (about the zero, whatever the number)";
+                let finding = Diagnostic::new(Code::NotUnderstood, span, SIGN_OR_PLACE).with_help(help);
+                self.findings
+                    .add(finding.lacking(format!("behaviour.{}=sign", Question::MirrorAbout.name())));
+            }
+        }
+    }
+}
+
+const SIGN_OR_PLACE: &str =
+    "no source says what the number beside this code for mirroring means on this control: a sign, or a place";
+
+const NOT_MINUS: &str = "the number beside this code for mirroring is a sign, and it is not known to be minus: write the axes that are mirrored \
+                         alone, each with a minus, and the code that ends mirroring for the others";
 
 /// True where a number is written with a decimal point.
 fn has_point(written: &Written) -> bool {
