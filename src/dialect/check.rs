@@ -1,9 +1,9 @@
 //! What a table must not say: the same thing twice, a range backwards, two
 //! answers to one question.
 
+use super::answers::SETTING;
 use super::check_sources::sources;
 use super::overlay;
-use super::questions::SETTING;
 use super::reader::{Placed, Reader, closest};
 use super::{
     Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Matter, Operator, Question,

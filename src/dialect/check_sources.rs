@@ -1,7 +1,7 @@
 //! What a table must not say of where its rows come from.
 
+use super::answers::SETTING;
 use super::check::Tables;
-use super::questions::SETTING;
 use super::reader::{Placed, Reader};
 use super::{Behaviour, Mark, Row};
 

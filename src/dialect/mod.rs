@@ -7,6 +7,7 @@
 //! addressed, which code an operation has.
 
 mod acts;
+mod answers;
 mod arithmetic;
 mod bare_shapes;
 mod check;
@@ -57,6 +58,7 @@ mod variables;
 mod wanted;
 
 pub use acts::{Acts, Ends};
+pub use answers::Answers;
 pub use check::TELLS;
 pub use control::{CODE_SYSTEM, Control};
 pub use control_codes::{Alias, CodePlace};
@@ -74,7 +76,7 @@ pub use profile::{
     Axis, DecimalPoint, LineEnds, Machine, Outputs, Plain, Profile, Signal, Units, VariableRun,
 };
 pub use question_groups::QuestionGroup;
-pub use questions::{Answers, Question};
+pub use questions::Question;
 pub use reader::{faults_as_text, faults_of_files};
 pub use registry::Entry;
 pub use row::Row;

@@ -1,9 +1,9 @@
 //! What a machine profile says of the facts themselves: answers to questions, and facts that were checked.
 
+use super::answers::{Answers, SETTING};
 use super::check::{LIMITS, STATEMENTS};
 use super::overlay::Overlay;
 use super::profile::Plain;
-use super::questions::{Answers, SETTING};
 use super::reader::closest;
 use super::{
     Behaviour, CodeHead, Control, Dialect, Mark, Origin, Question, QuestionGroup, Row, matters, registry,

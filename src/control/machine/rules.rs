@@ -221,6 +221,7 @@ impl Rules {
             let acts = control.acts(kind);
             Fact { value: acts.late, unsure: (!acts.known).then(|| acts.question.fact()) }
         };
+        let after = |question| fact(control, question, length_after, LengthAfter::Kept);
         Self {
             late: Auxiliary::ALL.map(late),
             sets: (control.profile().site.iter())
@@ -326,25 +327,19 @@ impl Rules {
                 .or_silent(control, Question::RotationCentreIncremental),
             radius_by_length_word: yes(control, Question::RadiusByLengthWord, false)
                 .or_silent(control, Question::RadiusByLengthWord),
-            length_after_reference: fact(control, Question::ReferenceLength, length_after, LengthAfter::Kept),
-            length_after_machine_move: fact(
-                control,
-                Question::MachineMoveLength,
-                length_after,
-                LengthAfter::Kept,
-            ),
+            length_after_reference: after(Question::ReferenceLength),
+            length_after_machine_move: after(Question::MachineMoveLength),
             machine_move_is_rapid: control.is(Question::MachineMoveRapid),
             length_moves: control.is(Question::LengthMoves),
             turns_by_sign: answers::turns_by_sign(control),
             cycle_runs_by_rotary: yes(control, Question::CycleRunsByRotary, true)
                 .or_silent(control, Question::CycleRunsByRotary),
-            length_after_change: fact(control, Question::ChangeLength, length_after, LengthAfter::Kept)
-                .or_silent(control, Question::ChangeLength),
+            length_after_change: after(Question::ChangeLength).or_silent(control, Question::ChangeLength),
             positions_hold_length: fact(control, Question::PositionLength, word("added", "left.out"), false),
             mirror_off_names: fact(control, Question::MirrorOffAxes, word("named", "all"), true)
                 .or_silent(control, Question::MirrorOffAxes),
             mirror_off_bare: fact(control, Question::MirrorOffBare, only("all"), ()),
-            mirrors_by_sign: control.behaviour(Question::MirrorAbout).is_some_and(|row| row.value == "sign"),
+            mirrors_by_sign: answers::are(control, Question::MirrorAbout, "sign"),
             mirrors_about_word: fact(control, Question::MirrorAbout, word("word", "zero"), true),
             frame_codes_when_shaped: fact(control, Question::ShapeFrameCodes, only("kept"), ()),
             scale_reaches_cycle: fact(control, Question::ScaleReachesCycle, only("true"), ()),
