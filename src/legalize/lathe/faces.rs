@@ -10,6 +10,7 @@ mod known;
 mod rapids;
 mod words;
 
+use super::straight::returns_into;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
@@ -52,8 +53,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
     let known = OverCalls::of(module, &Faces { by_c: ours });
     let called = called(module);
-    let returns_to = (module.programs.iter().flat_map(|program| &program.blocks))
-        .any(|block| matches!(block.term.kind, TermKind::Return { to: Some(_) }));
+    let returns_to = returns_into(module);
     let names: BTreeSet<_> = module.programs.iter().filter_map(|program| program.name.clone()).collect();
     let mut found: Vec<(usize, Span, &'static str)> = Vec::new();
     let summaries = context.summaries(module);

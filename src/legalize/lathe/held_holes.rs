@@ -8,6 +8,7 @@
 
 use super::hole_words::{Told, lasting};
 use super::holes::drills;
+use super::straight::{entered_straight, returns_into};
 use crate::canon::{Act, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
@@ -33,11 +34,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let begins = context.source.start().iter().any(|mode| mode.op == Op::ReturnInitial);
     let stays = begins && !context.features.op(Op::ReturnR);
     let facts = context.modal_facts(module);
+    let numbers_are_entered = returns_into(module);
     let (mut written, mut lost, mut open) = (Vec::new(), Vec::new(), Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
-        for (id, block) in program.ids().zip(&mut program.blocks) {
+        let straight = entered_straight(program);
+        let mut cycle = Cycle::default();
+        for ((id, block), straight) in program.ids().zip(&mut program.blocks).zip(straight) {
             let mut state = facts.at(index, id);
-            let mut cycle = Cycle::default();
+            if !straight || numbers_are_entered {
+                cycle = Cycle::default();
+            }
             let mut out = Stmts::with_capacity(block.stmts.len());
             for stmt in std::mem::take(&mut block.stmts) {
                 let before = state.clone();
@@ -101,8 +107,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 const LOST: &str = "a hole of a cycle whose holes are clamped: its plane or depth is computed, or not known here, or it has repeats or a block \
-                    skip, or ends at its plane, or G1 is in force; the target needs a block for each step of it";
-const LOST_HELP: &str = "write the code of the cycle with all its words into the block";
+                    skip, or ends at its plane, or G0 is not known to be in force; the target needs a block for each step of it";
+const LOST_HELP: &str =
+    "write the code of the cycle with all its words into the block, and G0 into a block before it that moves";
 
 /// True of a block whose one code of a builder is the clamp.
 fn is_held(nc: &Nc, clamps: Act) -> bool {
