@@ -229,7 +229,7 @@ questions! {
                                                                         reference position, until the spindle starts", if "op:threading";
     PassAlone "pass.alone" OneOf(&["nothing", "repeats", "unknown"]), "what a block with M, S or T and without an axis does while a turning, threading or facing pass is in \
                                                                      force: the pass once more, or nothing but its own words", if "op:pass.turning";
-    PassEmpty "pass.empty" OneOf(&["nothing", "repeats", "unknown"]), "what a block without a word, or with F or the taper alone, does while a turning, threading or facing pass is in force: \
+    PassEmpty "pass.empty" OneOf(&["nothing", "repeats", "unknown"]), "what a block without a word (a comment alone, too), or with F or the taper alone, does while a turning, threading or facing pass is in force: \
                                                                       nothing, or the pass once more", if "op:pass.turning";
     PassData "pass.data" OneOf(&["kept", "cleared", "unknown"]), "what a G code for its own block, other than a wait, does to the words of the turning, threading or facing \
                                                                   pass in force: they stay, or are taken away", if "op:pass.turning";

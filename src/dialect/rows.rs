@@ -291,6 +291,8 @@ pub struct Setting {
     pub name: String,
     /// Its name on a control of another age.
     pub also: Option<String>,
+    /// The option of machines that have it by that other name.
+    pub also_with: Option<String>,
     /// Its value where the profile is silent; absent for none.
     pub default: Option<String>,
     /// True where no source says that a machine has the default: what rests on it

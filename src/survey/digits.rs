@@ -31,6 +31,7 @@ pub(super) fn asked(places: &Places<'_>, controls: [&Control; 2], module: &Modul
             section,
             name: name.to_owned(),
             likely: None,
+            wanted: Vec::new(),
             values: row.values.clone(),
             default: None,
             meaning: row.meaning.clone(),

@@ -4,6 +4,7 @@
 //! these signs away. What is told of questions begins with `#:`, as nothing there is filled in. The next survey takes out
 //! what is left of both, and puts its own in.
 
+use super::keys::needed_by;
 use super::start::lines as lines_of_start;
 use super::words::with_words;
 use super::{AskedSetting, AskedStart, AskedWord, Survey};
@@ -144,7 +145,7 @@ fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str,
 
 /// A setting that programs wait for, as a line. What the profile says already is no key again.
 fn line_of(setting: &AskedSetting, said: &Profile) -> String {
-    let AskedSetting { name, section, values, default, meaning, programs, places, .. } = setting;
+    let AskedSetting { name, section, values, default, meaning, .. } = setting;
     let choice = match *section {
         // A name with points is one key.
         "behaviours" => Settled::choice(&format!("\"{name}\""), values),
@@ -157,11 +158,12 @@ fn line_of(setting: &AskedSetting, said: &Profile) -> String {
         _ => &said.settings,
     };
     let other = if stated.contains_key(name) { "# another value than below: " } else { "" };
-    format!("{ASKS} {other}{choice} # {} ({}{usual})\n", short(&plain(meaning)), counted(*programs, places))
+    let where_needed = needed_by(setting);
+    format!("{ASKS} {other}{choice} # {} ({where_needed}{usual})\n", short(&plain(meaning)))
 }
 
 /// `4 programs: a.nc:3, b.nc:1`.
-fn counted(programs: usize, places: &[String]) -> String {
+pub(super) fn counted(programs: usize, places: &[String]) -> String {
     let programs = if programs == 1 { String::new() } else { format!("{programs} programs: ") };
     format!("{programs}{}", plain(&places.join(", ")))
 }

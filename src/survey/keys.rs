@@ -1,5 +1,6 @@
 //! Settings that refusals of a survey wait for, or that the target must have while programs run.
 
+use super::filled::{counted, plain};
 use super::shape::{NAMED, Places};
 use crate::assume::Predicate;
 use crate::diag::Diagnostic;
@@ -21,6 +22,9 @@ pub struct AskedSetting {
     pub name: String,
     /// The values that it may have; empty for any.
     pub values: Vec<String>,
+    /// Where programs need more than one value: each of them, and the first place that needs it.
+    #[serde(skip)]
+    pub wanted: Vec<(String, String)>,
     /// What the machine has if nobody changed it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub default: Option<String>,
@@ -47,8 +51,8 @@ impl AskedSetting {
 #[derive(Default)]
 struct Found {
     programs: BTreeSet<usize>,
-    /// The values that it must have, as their bits.
-    needed: BTreeSet<u64>,
+    /// The values that it must have, as their bits, and the first place of each.
+    needed: BTreeMap<u64, String>,
     likely: Option<String>,
     places: Vec<String>,
 }
@@ -65,12 +69,14 @@ pub(super) fn asked(
             let Some((side, name, value)) = named(finding) else { continue };
             let found = found.entry((side, name)).or_default();
             found.programs.insert(at);
-            found.needed.extend(value.map(f64::to_bits));
             let there = finding.setting_there.as_deref().filter(|_| value.is_none());
             let named = finding.setting.as_deref().or(there);
             let shown = named.and_then(|name| Some(name.split_once('=')?.1.to_owned()));
             found.likely = found.likely.take().or(shown);
             let place = places.at(program.file, finding.span);
+            if let Some(value) = value {
+                found.needed.entry(value.to_bits()).or_insert_with(|| place.clone());
+            }
             if found.places.len() < NAMED && !found.places.contains(&place) {
                 found.places.push(place);
             }
@@ -82,6 +88,10 @@ pub(super) fn asked(
             Side::Target => controls[1],
         };
         let row = control.setting_row(&name);
+        // By the number that this machine has.
+        let newer = row
+            .filter(|row| row.also_with.as_ref().is_some_and(|with| control.has_option(with) == Some(true)));
+        let name = newer.and_then(|row| row.also.as_deref()).unwrap_or(&name);
         let (section, short) = match (name.strip_prefix("parameter."), name.strip_prefix("behaviour.")) {
             (Some(number), _) => ("parameters", number),
             (None, Some(question)) => ("behaviours", question),
@@ -89,8 +99,10 @@ pub(super) fn asked(
         };
         let question = Question::find(short).filter(|_| section == "behaviours");
         let whole = row.map_or(1.0, Setting::whole);
-        let needed = found.needed.into_iter().map(|bits| (f64::from_bits(bits) * whole * 1e6).round() / 1e6);
-        let needed: Vec<String> = needed.map(|value| value.to_string()).collect();
+        let as_set = |bits: u64| ((f64::from_bits(bits) * whole * 1e6).round() / 1e6).to_string();
+        let wanted: Vec<(String, String)> =
+            found.needed.into_iter().map(|(bits, place)| (as_set(bits), place)).collect();
+        let needed: Vec<String> = wanted.iter().map(|(value, _)| value.clone()).collect();
         let answers = question.map_or_else(String::new, |question| question.answers().written(&[]));
         let mut values = if needed.is_empty() { values(row, short) } else { needed };
         if values.is_empty() && question.is_some_and(Question::is_choice) {
@@ -105,6 +117,7 @@ pub(super) fn asked(
             section,
             name: short.to_owned(),
             values,
+            wanted,
             likely: found.likely.or(small),
             default: row
                 .and_then(|row| row.default.clone())
@@ -121,6 +134,18 @@ pub(super) fn asked(
     let mut asked: Vec<AskedSetting> = asked.collect();
     asked.sort_by_key(|setting| std::cmp::Reverse(setting.programs));
     asked
+}
+
+/// How many programs need a setting, and where; each of several values with its first place.
+pub(super) fn needed_by(setting: &AskedSetting) -> String {
+    let each = setting.wanted.iter().map(|(value, place)| format!("{value} in {}", plain(place)));
+    match setting.wanted.len() {
+        0 | 1 => counted(setting.programs, &setting.places),
+        _ => {
+            let each: Vec<String> = each.collect();
+            format!("{} programs, one value at a time: {}", setting.programs, each.join(", "))
+        }
+    }
 }
 
 /// The values that a setting may have. A G code system is asked where codes show another one than the usual.

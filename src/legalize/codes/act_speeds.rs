@@ -95,14 +95,12 @@ fn give(stmt: &mut Stmt, index: usize, before: Known, context: &mut Context<'_>)
                     }
                 }
             }
-            (None, Some(theirs)) => {
-                if !said(theirs, nc) && source.act_words(act).contains(&theirs) {
-                    let what = format!(
-                        "{name} without its speed: {code} of the target takes the last S, of whatever it was"
-                    );
-                    let help = "write the speed in this block of the source";
-                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
-                }
+            (None, Some(theirs)) if !said(theirs, nc) && source.act_words(act).contains(&theirs) => {
+                let what = format!(
+                    "{name} without its speed: {code} of the target takes the last S, of whatever it was"
+                );
+                let help = "write the speed in this block of the source";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
             }
             (None, None) => wanted(act, index, span, context),
             _ => {}

@@ -6,7 +6,7 @@
 
 use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use std::collections::BTreeMap;
@@ -69,14 +69,14 @@ fn taps(program: &Program, states: &[Modal]) -> Vec<Tap> {
                 continue;
             };
             if let Some(value) = nc.word(Role::Speed) {
-                speed = value.constant().filter(|_| stmt.site.skip.is_none());
+                speed = worked_out(value).filter(|_| stmt.site.skip.is_none());
             }
             let begins = before == Some(Op::CycleOff) && stmt.site.skip.is_none() && nc.ops().any(is_tap);
             let surface = state.op(Group::SpeedMode) == Some(Op::SurfaceSpeed);
             if !begins || surface || state.op(Group::FeedMode) != Some(Op::FeedPerMinute) {
                 continue;
             }
-            let feed = nc.word(Role::Feed).map_or(state.feed(), Expr::constant);
+            let feed = nc.word(Role::Feed).map_or(state.feed(), worked_out);
             let end = end((number, at), &state, program, &straight);
             if let (Some(feed), Some(speed), Some(end)) = (feed, speed.filter(|speed| *speed > 0.0), end)
                 && let Some(lead) = lead(feed, speed)
@@ -86,6 +86,20 @@ fn taps(program: &Program, states: &[Modal]) -> Vec<Tap> {
         }
     }
     found
+}
+
+/// A value that is a number, or one times or over another.
+fn worked_out(value: &Expr) -> Option<f64> {
+    match value {
+        Expr::Binary(op @ (BinOp::Mul | BinOp::Div), parts) => {
+            let (a, b) = (worked_out(&parts[0])?, worked_out(&parts[1])?);
+            match op {
+                BinOp::Mul => Some(a * b),
+                _ => (b != 0.0).then(|| a / b),
+            }
+        }
+        value => value.constant(),
+    }
 }
 
 /// The lead, if it has no more than six decimals.
