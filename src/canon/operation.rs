@@ -65,6 +65,8 @@ super::vocabulary! {
         CheckInch = "units.check.inch",
         /// Checks that the control is set to metric; changes nothing.
         CheckMetric = "units.check.metric",
+        /// Ends the input of data that an earlier block began; where none is open it does nothing.
+        DataInputEnd = "data.input.end",
         /// Stored stroke check on.
         StrokeCheckOn = "stroke.check.on",
         /// Stored stroke check off.

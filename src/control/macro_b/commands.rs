@@ -131,7 +131,8 @@ impl<'c> Runner<'c> {
             };
             self.keep_modal(code, row.op);
             command.words.extend(row.fixed.iter().map(|(role, value)| (*role, *value)));
-            if row.op.is_flow() {
+            // No input of data is ever open here.
+            if row.op.is_flow() || row.op == Op::DataInputEnd {
                 continue;
             }
             if self.session.machine.is_lathe() && self.style.lathe_signs.contains(&row.code.as_str()) {

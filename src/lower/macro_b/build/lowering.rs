@@ -58,6 +58,8 @@ pub struct Lowering<'a> {
     pub inverse: bool,
     /// True after what ended the run, or left by a jump, where no block since can be jumped to.
     pub is_over: bool,
+    /// True from a block on that begins a table of data, until the code that ends it.
+    pub in_data: bool,
     /// True where the block at hand has axis words beside a code that may take words.
     pub moves: bool,
 }
@@ -135,6 +137,7 @@ impl<'a> Lowering<'a> {
             lookahead_limited: false,
             inverse: false,
             is_over: false,
+            in_data: false,
             moves: false,
         }
     }

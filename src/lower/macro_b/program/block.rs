@@ -94,6 +94,11 @@ impl<'a> Lowering<'a> {
                 line += 1;
             }
             self.at = at;
+            self.in_data &= !self.ends_data(block);
+            if self.in_data {
+                self.builder.push(StmtKind::Comment, site(block, self.source));
+                continue;
+            }
             let is_dead = self.is_over && is_unnamed(block.span.of(self.source));
             let refused = block.errors.iter().any(|error| error.code.severity() == Severity::Error);
             if is_dead && refused {

@@ -198,6 +198,10 @@ impl<'a> Lowering<'a> {
         nc: &mut Nc,
         seen: &mut Seen,
     ) {
+        // What it ends is read nowhere here.
+        if row.op == Op::DataInputEnd {
+            return;
+        }
         let group = row.op.group();
         seen.m_codes += u32::from(word.letter == 'M');
         if group != Group::OneShot && seen.group(group) && drop_clashing(nc, row.op) {

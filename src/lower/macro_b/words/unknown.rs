@@ -3,8 +3,10 @@
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeHead, Machine};
+use crate::lower::common::constant;
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::codes::CodeId;
+use crate::syntax::{Block, ItemKind};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
@@ -16,6 +18,7 @@ impl Lowering<'_> {
         let name = format!("{letter}{number}");
         let of_builder = code.alias.is_none();
         if code.depends {
+            self.in_data |= self.begins_data(code.head);
             return self.findings.add(self.other_words(&name, code.head, span));
         }
         let message = if code.alias.is_some() {
@@ -34,6 +37,27 @@ impl Lowering<'_> {
         self.findings.add(if of_builder { finding.asking(letter, number) } else { finding });
     }
 
+    /// True for a code that writes into tables, on a control where a code ends the input of more: then what it begins here is such.
+    fn begins_data(&self, head: CodeHead) -> bool {
+        use Op::{WriteLength, WriteOffset, WriteRadius, WriteTurret, WriteWork};
+        let rows = &self.control.dialect().codes;
+        let writes = |op| matches!(op, WriteLength | WriteOffset | WriteRadius | WriteTurret | WriteWork);
+        rows.iter().any(|row| row.op == Op::DataInputEnd)
+            && rows.iter().any(|row| row.head() == Some(head) && writes(row.op))
+    }
+
+    /// True for a block with the code that ends the input of data.
+    pub fn ends_data(&self, block: &Block) -> bool {
+        block.items.iter().any(|item| match &item.kind {
+            ItemKind::Word(word) if word.letter == 'G' && !word.comma => {
+                let number = word.value.as_ref().and_then(constant);
+                let row = number.and_then(|number| self.control.code(word.letter, number, &[]));
+                row.is_some_and(|row| row.op == Op::DataInputEnd)
+            }
+            _ => false,
+        })
+    }
+
     /// A code that the table knows beside other words alone.
     fn other_words(&self, name: &str, head: CodeHead, span: Span) -> Diagnostic {
         let rows = || self.control.dialect().codes.iter().filter(|row| row.head() == Some(head));
@@ -42,6 +66,15 @@ impl Lowering<'_> {
         let message = format!(
             "what {name} does beside the words of this block no source says: the table of this control has it as {all} alone"
         );
+        if self.begins_data(head) {
+            let message = format!(
+                "{name} begins data here that only this control has in its programs (L3: groups of tool life; L50: parameters): the \
+                 table of this control has it as {all} alone"
+            );
+            let help =
+                "enter the data on the pages of the other control, and take these blocks out of the program";
+            return Diagnostic::new(Code::NotUnderstood, span, message).with_help(help);
+        }
         // A limit of the speed, which sets a zero beside the letters of axes on many lathes.
         let limits = rows().any(|row| row.op == Op::LimitSpeed);
         let help = match limits && self.control.machine() == Machine::Lathe {
