@@ -185,7 +185,7 @@ pub fn own_profile(named: Option<&str>, inputs: &[Input]) -> Result<Option<PathB
 pub fn doubt(name: &str, inputs: &[Input]) -> Option<String> {
     let told = looks_like(inputs, name).map(|told| {
         format!(
-            "the programs are read as {name}, but {told}. Name the right control with --from or --dialect"
+            "the programs are read as {name}, but {told}. If that is what it is, name it with --from or --dialect"
         )
     });
     if let Some(told) = &told {
@@ -203,7 +203,7 @@ pub fn source_of(
     inputs: &[Input],
 ) -> Result<String, u8> {
     if named.is_some() || machines.is_empty() {
-        return dialect_of(named, inputs);
+        return dialect_besides(named, others, inputs);
     }
     let mut spoken = Vec::new();
     for path in machines {
@@ -214,7 +214,7 @@ pub fn source_of(
         spoken.iter().filter(|name| !others.contains(&name.as_str()) || twice(name)).collect();
     match own.into_iter().collect::<Vec<_>>().as_slice() {
         [name] => Ok((*name).clone()),
-        _ => dialect_of(None, inputs),
+        _ => dialect_besides(None, others, inputs),
     }
 }
 
@@ -235,6 +235,11 @@ pub fn source(named: Option<&str>, machine: Option<&PathBuf>, inputs: &[Input]) 
 
 /// The dialect that was named, or the one that the text shows.
 pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
+    dialect_besides(named, &[], inputs)
+}
+
+/// The same of a source: of two that read the text alike, the one that is not that of the other side.
+fn dialect_besides(named: Option<&str>, others: &[&str], inputs: &[Input]) -> Result<String, u8> {
     if let Some(name) = named {
         return Ok(name.into());
     }
@@ -249,6 +254,15 @@ pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
         ))),
         Detected::Sure(entry) => Ok(entry.name.into()),
         Detected::Unsure(entries) => {
+            let left: Vec<&str> =
+                entries.iter().map(|entry| entry.name).filter(|name| !others.contains(name)).collect();
+            if let ([name], true) = (left.as_slice(), entries.len() > 1) {
+                let other = others.join(" and ");
+                remark(format_args!(
+                    "the programs are read as {name}; they may be {other} as well, which is the target. If they are, name it with --from"
+                ));
+                return Ok((*name).into());
+            }
             let likely = entries.iter().map(|entry| entry.name).collect::<Vec<_>>().join(" or ");
             Err(complain(format!(
                 "the control of the programs is not certain: it may be {likely}. Name it with --from or \

@@ -14,6 +14,10 @@ const FEW: usize = 40;
 /// By how much of the text a control is clearly ahead of another.
 const AHEAD: f64 = 0.15;
 
+/// By how little it is ahead where nothing is decided, of another family and of its own.
+const NEAR: f64 = 0.02;
+const NEAR_OF_FAMILY: f64 = 0.055;
+
 /// What the text says.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Detected {
@@ -55,8 +59,14 @@ pub fn detect(inputs: &[Input]) -> Detected {
     let mut whole = of_all(&files);
     whole.sort_by(|a, b| b.0.share().total_cmp(&a.0.share()));
     let best = whole.first().map_or(0.0, |(score, _)| score.share());
-    let near: Vec<&'static Entry> =
-        whole.iter().filter(|(score, _)| score.share() >= best - 0.02).map(|(_, entry)| *entry).collect();
+    let family = |entry: &Entry| entry.dialect().ok().map(|dialect| dialect.family.clone());
+    let of_best = whole.first().and_then(|(_, entry)| family(entry));
+    // Controls of one family have most blocks in common: a few that one alone has not tell little.
+    let is_near = |(score, entry): &&(Score, &'static Entry)| {
+        let margin = if family(entry) == of_best { NEAR_OF_FAMILY } else { NEAR };
+        score.share() >= best - margin
+    };
+    let near: Vec<&'static Entry> = whole.iter().filter(is_near).map(|(_, entry)| *entry).collect();
     let Some(first) = near.first() else { return Detected::Unsure(near) };
     for (input, file) in inputs.iter().zip(&files) {
         let of = |entry: &Entry| file.iter().find(|(_, e)| *e == entry).map_or(Score::default(), |(s, _)| *s);

@@ -161,3 +161,16 @@ fn a_certificate_is_printed_in_words_on_request() {
         "    source: G1 X2. F10., line 5 of a.nc O1234\n    target: G1 X2.5 F10., line 5 of b.nc O1234\n";
     assert!(words.out.contains("  Where they differ: ") && words.out.contains(differ), "{}", words.out);
 }
+
+/// Two controls of a family read most texts alike: the target is not the source, and without one the user says which it is.
+#[test]
+fn of_two_controls_that_read_a_text_alike_the_target_is_not_the_source() {
+    let text = "O1234\nG20 G17 G90 G40 G80 G94\n#101=1.\nWHILE [#101 LT 3.] DO1\nG1 X#101 F10.\n#101=#101+1.\nEND1\nM30\n";
+    let shop = Shop::with(&[("a.nc", text)]);
+    let run = shop.run("convert a.nc --to haas");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.err.contains("the programs are read as fanuc; they may be haas as well"), "{}", run.err);
+    let run = shop.run("convert a.nc --to fanuc");
+    assert!(run.err.contains("the programs are read as haas; they may be fanuc as well"), "{}", run.err);
+    shop.fails("convert a.nc --to fadal", &["it may be fanuc or haas", "--from"]);
+}
