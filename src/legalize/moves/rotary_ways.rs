@@ -43,11 +43,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 here.step(&stmt, (&before, &state), ways.0, source);
                 let span = stmt.site.span;
                 let aside = is_alone(&stmt, &state, context).then(|| back(span));
-                let kind = match aside {
-                    Some(_) => Kind::Alone,
-                    None if is_rapid(&stmt, &state) => Kind::Rapid,
-                    None => Kind::Other,
-                };
+                let kind = Kind { alone: aside.is_some(), rapid: is_rapid(&stmt, &state) };
                 let mut after = None;
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
                     match state.op(Group::Distance) {
@@ -71,13 +67,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 
 /// What a block does besides turning an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+struct Kind {
     /// It moves nothing else.
-    Alone,
-    /// It goes somewhere at rapid.
-    Rapid,
-    /// Anything.
-    Other,
+    alone: bool,
+    /// It goes at rapid.
+    rapid: bool,
 }
 
 /// True for a move at rapid that drills nothing.
@@ -145,27 +139,30 @@ fn angles(
         return Done::Nothing;
     }
     let mut done = Done::Nothing;
+    // The angle that it comes to is the same, and nothing is cut on the way.
+    let round = kind.rapid && (ours, theirs) == (Way::Turns, Way::Shortest);
     for item in &mut nc.items {
         let NcItem::Word(role, value) = item else { continue };
         let Some(axis) = AXES.iter().position(|axis| axis == role) else { continue };
         let Some(angle) = degrees(value, context.source) else {
-            refuse(COMPUTED, HELP, place, context);
+            match round {
+                true => other_way_round(place, context),
+                false => refuse(COMPUTED, HELP, place, context),
+            }
             continue;
         };
         let stands = from.of(axis);
         let written = match (written(stands, angle, ours, theirs), turned(stands, angle, ours)) {
-            (Err((UNKNOWN | TURNED, _)), Some(by)) if kind == Kind::Alone && theirs == Way::Turns => {
+            (Err((UNKNOWN | TURNED, _)), Some(by)) if kind.alone && theirs == Way::Turns => {
                 done = Done::Turns;
                 by
             }
-            (Err((HALF, _)), Some(by)) if kind == Kind::Alone => {
+            (Err((HALF, _)), Some(by)) if kind.alone => {
                 done = Done::Turns;
                 by
             }
-            // The angle that it comes to is the same, and nothing is cut on the way.
-            (Err((HALF, _)), _) if kind == Kind::Rapid && ours == Way::Turns => {
-                let finding = Diagnostic::new(Code::Conditional, place.1, ROUND).asked_once();
-                context.add_once(place.0, ROUND, finding);
+            (Err((HALF | UNKNOWN, _)), _) if round => {
+                other_way_round(place, context);
                 continue;
             }
             (Ok(written), _) => written,
@@ -227,6 +224,12 @@ fn angle_of(way: Way, angle: f64) -> f64 {
     if way == Way::Sign { angle.abs() } else { angle }
 }
 
+/// Says, once for the library, that an axis may go the other way round at rapid.
+fn other_way_round((index, span): (usize, Span), context: &mut Context<'_>) {
+    let finding = Diagnostic::new(Code::Conditional, span, ROUND).asked_once();
+    context.add_once(index, ROUND, finding);
+}
+
 /// Asks where the axis stands when a program begins, of the control that goes by the sign.
 fn rests((index, span): (usize, Span), context: &mut Context<'_>) {
     if Way::of(context.source) == Way::Sign {
@@ -258,7 +261,7 @@ const COMPUTED: &str = "this angle is computed, and so the way that the rotary a
 const WHOLE: &str = "the rotary axis turns by a whole turn or more here";
 const EITHER: &str = "the rotary axis comes to this angle from both sides";
 const HALF: &str = "the rotary axis turns by half a turn or more here, and the target takes the shorter way";
-const ROUND: &str = "a rotary axis goes to its angle at rapid the other way round than on the source, where it turns back by all that it turned: make \
+const ROUND: &str = "a rotary axis may go to its angle at rapid the other way round than on the source, where it turns back by all that it turned: make \
      sure that nothing is in its way there, a hose or a line above all";
 const TURNED: &str = "how many turns the rotary axis has made before this angle is not known";
 const MODE: &str = "whether G90 or G91 is in force at this angle is not known";
