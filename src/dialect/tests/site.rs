@@ -23,6 +23,10 @@ fn rows_that_contradict_themselves_or_the_table_are_faults() {
     fanuc("name='air',op='coolant.flood'", "M14 has two meanings");
     fanuc("target='M88',do='omit'", "M14 has 'target' and 'do'");
     fanuc("target='88'", "'88' is not a code");
+    fanuc("target='M3 FOO'", "'M3 FOO' is not a code");
+    fanuc("with=['coolant.flood']", "does 'coolant.flood' with something that is not said");
+    fanuc("op='spindle.cw',with=['spindle.stop']", "switches one thing twice");
+    fanuc("op='dwell',with=['coolant.flood']", "'dwell' cannot be done together with something else");
     fanuc("do='nothing'", "omit");
     fanuc("arguments=true", "M14 has arguments and calls no program");
     fanuc("calls=9010,name='air'", "M14 has two meanings");
