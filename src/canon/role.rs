@@ -75,6 +75,8 @@ super::vocabulary! {
         CycleRStep = "cycle.r.step",
         /// Peck or shift of a drilling cycle.
         CycleQ = "cycle.q",
+        /// How many times as fast as it goes in a tap comes out.
+        TapRetract = "cycle.tap.retract",
         /// Dwell at the bottom of a drilling cycle, milliseconds.
         CycleDwell = "cycle.dwell",
         /// How often a cycle or motion block is repeated.

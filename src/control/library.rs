@@ -194,8 +194,8 @@ pub(super) fn cycle_number(file: &str) -> Option<u32> {
     let at = name.find(|sign: char| sign.is_ascii_digit())?;
     let (word, rest) = name.split_at_checked(at)?;
     let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
-    let (digits, behind) = rest.split_at_checked(end)?;
-    let letter_follows = behind.starts_with(char::is_alphanumeric);
+    let (digits, rest) = rest.split_at_checked(end)?;
+    let letter_follows = rest.starts_with(char::is_alphanumeric);
     match word.trim_end_matches([' ', '_', '-']) {
         "cycle" => digits.parse().ok(),
         "zyklus" | "zyk" | "cyc" if !letter_follows => digits.parse().ok(),

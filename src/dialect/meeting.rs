@@ -88,6 +88,11 @@ fn met(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Met, S
     for code in &codes {
         let head = CodeHead::read(code);
         let row = head.and_then(|head| target.code(head.letter, head.number(), &[]));
+        if row.is_none() {
+            return Err(format!(
+                "the table of the target has no {code}: say in the target's profile what it does, with op = \"spindle.cw\" or its like"
+            ));
+        }
         let row = row.filter(|row| site_rows::can_stand_together(row.op) && row.fixed.is_empty());
         let row = row.ok_or_else(|| {
             format!(
@@ -99,11 +104,7 @@ fn met(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Met, S
         ops.push(row.op);
     }
     let op = ops.remove(0);
-    let clash = ops
-        .iter()
-        .enumerate()
-        .any(|(at, one)| std::iter::once(&op).chain(&ops[..at]).any(|other| one.group() == other.group()));
-    if clash {
+    if site_rows::clash(op, &ops) {
         return Err(format!("'{code}' switches one thing twice: name each code once"));
     }
     if !site.words.is_empty() {

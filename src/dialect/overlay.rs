@@ -1,9 +1,9 @@
 //! Lays a machine profile over a dialect's table.
 
 use super::extents;
+use super::overlay_settings::leave_changes_to_code;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
-use super::second_home::leave_changes_to_code;
 use super::{Behaviour, Control, Dialect, Entry, Mark, SystemVariable, VariableClass, registry};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};

@@ -3,7 +3,8 @@
 use super::control::numbered;
 use super::overlay::{Overlay, conditions};
 use super::reader::closest;
-use super::{BareLength, Dialect, Mark, Origin, Setting};
+use super::{BareLength, Behaviour, Dialect, Mark, Origin, Question, Setting};
+use crate::canon::Op;
 use std::collections::BTreeMap;
 
 impl Overlay {
@@ -190,5 +191,16 @@ impl Setting {
             }
             _ => false,
         }
+    }
+}
+
+/// Takes away what the table says of tool words that change tools by themselves, where the profile says that a code does: then the
+/// word only names the tool.
+pub(super) fn leave_changes_to_code(dialect: &mut Dialect) {
+    let by_code = |row: &Behaviour| row.question == Question::ToolChangeWord && row.value == "m6";
+    if dialect.behaviours.iter().any(by_code) {
+        dialect.behaviours.retain(|row| row.question != Question::ToolWordAgain);
+        let changes = dialect.words.iter_mut().filter(|row| row.op == Some(Op::ToolChange));
+        changes.for_each(|row| row.op = None);
     }
 }

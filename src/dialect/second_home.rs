@@ -1,7 +1,7 @@
 //! Settings that more than one module asks: the place of the second reference position of other machines, the letters of increments, pecks, and
 //! whether the tool in the spindle is changed again.
 
-use super::{Behaviour, Control, Dialect, Question, Setting, Units};
+use super::{Control, Question, Setting, Units};
 use crate::canon::{Act, Op, Role};
 
 /// The settings that give it along X, Y and Z, in machine coordinates and the unit of the control.
@@ -13,16 +13,6 @@ pub const STEP_LETTERS: &str = "setting.step_letters";
 
 /// The setting that says which M code clamps the C axis for the hole of its block; the code of the next number lets it go.
 pub const HOLE_CLAMP: &str = "parameter.5110";
-
-/// Where a code changes the tool, the tool word only names it, and no answer is left of what the word alone changes.
-pub(super) fn leave_changes_to_code(dialect: &mut Dialect) {
-    let by_code = |row: &Behaviour| row.question == Question::ToolChangeWord && row.value == "m6";
-    if dialect.behaviours.iter().any(by_code) {
-        dialect.behaviours.retain(|row| row.question != Question::ToolWordAgain);
-        let changes = dialect.words.iter_mut().filter(|row| row.op == Some(Op::ToolChange));
-        changes.for_each(|row| row.op = None);
-    }
-}
 
 impl Control {
     /// The number of the code that clamps the C axis in a drilling block, and that of the code which lets it go after the hole.

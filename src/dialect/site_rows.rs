@@ -7,7 +7,7 @@ use super::site::{SiteCode, Without, fingerprint};
 use super::{Beside, CodeHead, CodeMeaning, Dialect, Subscript, SystemVariable, VariableRun};
 use crate::canon::{Act, Group, Op, Role, Sys};
 use std::cell::LazyCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Overlay {
     /// Adds the codes of the machine's builder; they stand for the table's own of that number.
@@ -88,15 +88,19 @@ impl Overlay {
     /// What a code does besides.
     fn check_with(&mut self, site: &SiteCode) {
         let Some(first) = site.with.first() else { return };
-        let all = || site.op.iter().chain(&site.with);
-        let twice = site.with.iter().any(|op| all().filter(|other| other.group() == op.group()).count() > 1);
-        if site.op.is_none() {
+        let Some(op) = site.op else {
             let message = format!("{} does '{first}' with something that is not said", site.code);
-            self.site_fault(site, message, "write op = \"spindle.cw\" beside it: what the code does first");
-        } else if let Some(odd) = all().find(|op| !can_stand_together(**op)) {
+            return self.site_fault(
+                site,
+                message,
+                "write op = \"spindle.cw\" beside it: what the code does first",
+            );
+        };
+        let mut all = std::iter::once(&op).chain(&site.with);
+        if let Some(odd) = all.find(|op| !can_stand_together(**op)) {
             let message = format!("'{odd}' cannot be done together with something else");
             self.site_fault(site, message, "beside 'with' there are operations of spindle and coolant alone");
-        } else if twice {
+        } else if clash(op, &site.with) {
             self.site_fault(site, format!("{} switches one thing twice", site.code), "name each once");
         }
     }
@@ -319,6 +323,12 @@ impl Without {
 /// True for an operation that one code may do together with another: what turns the spindle, and what switches coolant.
 pub(super) fn can_stand_together(op: Op) -> bool {
     matches!(op.group(), Group::Spindle | Group::Coolant) && op != Op::SpindleOrient
+}
+
+/// True where an operation and others beside it switch one thing twice.
+pub(super) fn clash(op: Op, with: &[Op]) -> bool {
+    let groups: BTreeSet<Group> = std::iter::once(op).chain(with.iter().copied()).map(Op::group).collect();
+    groups.len() <= with.len()
 }
 
 /// True for a code that is spelled right, with the words beside it.

@@ -85,36 +85,46 @@ fn of_block(nc: &Nc, state: &Modal, numbers: &Numbers, [one_family, in_steps, ca
         })
 }
 
-/// The variables that hold numbers of the programs, and nothing that was read from the machine.
+/// The variables of a library that programs set, each true where something that was read from the machine may be in it.
 struct Numbers(HashMap<Var, bool>);
 
 impl Numbers {
     fn of(module: &Module) -> Self {
-        let mut all = HashMap::new();
-        for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts)
-        {
-            if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind {
-                *all.entry(*var).or_insert(true) &= value.constant().is_some();
+        let stmts =
+            || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+        let mut all: HashMap<Var, bool> = HashMap::new();
+        let mut changed = true;
+        while std::mem::take(&mut changed) {
+            for stmt in stmts() {
+                let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind else { continue };
+                let was = all.get(var).copied();
+                let read = was == Some(true) || !is_own(value, &|var| all.get(&var) != Some(&true));
+                changed |= was != Some(read);
+                all.insert(*var, read);
             }
         }
         Self(all)
     }
 
-    /// True for a value that is a place of the old machine.
+    /// True for a value that is a place of the old machine. One that nothing in the library sets is an argument beside an axis, and beside an
+    /// offset what was in force before.
     fn is_place(&self, axis: Option<Role>, value: &Expr, one_family: bool) -> bool {
         match value.constant() {
             Some(number) => number != 0.0 || axis.is_some_and(|role| role != Role::Z) && !one_family,
-            None => {
-                let mut own = true;
-                value.walk(&mut |part| {
-                    own &= match part {
-                        Expr::Var(var) => self.0.get(var).copied().unwrap_or(axis.is_some()),
-                        Expr::System(..) | Expr::Indirect(..) => false,
-                        _ => true,
-                    };
-                });
-                own
-            }
+            None => is_own(value, &|var| self.0.get(&var).map_or(axis.is_some(), |read| !read)),
         }
     }
+}
+
+/// True for a value that the program makes of numbers and of such variables alone.
+fn is_own(value: &Expr, is_number: &dyn Fn(Var) -> bool) -> bool {
+    let mut own = true;
+    value.walk(&mut |part| {
+        own &= match part {
+            Expr::Var(var) => is_number(*var),
+            Expr::System(..) | Expr::Indirect(..) => false,
+            _ => true,
+        };
+    });
+    own
 }

@@ -26,6 +26,7 @@ pub(in crate::legalize) mod rigid_taps;
 pub(in crate::legalize) mod shift_ways;
 pub(in crate::legalize) mod stored_places;
 pub(in crate::legalize) mod tap_leads;
+pub(in crate::legalize) mod tap_retracts;
 mod tap_waits;
 pub(in crate::legalize) mod tapping;
 pub(in crate::legalize) mod turn_feeds;

@@ -139,6 +139,7 @@ fn angles(
         return Done::Nothing;
     }
     let mut done = Done::Nothing;
+    let selects = nc.has(Op::SelectWork) || nc.has(Op::ShiftCancel);
     // The angle that it comes to is the same, and nothing is cut on the way.
     let round = kind.rapid && (ours, theirs) == (Way::Turns, Way::Shortest);
     for item in &mut nc.items {
@@ -171,7 +172,8 @@ fn angles(
                 continue;
             }
         };
-        if stands.assumed {
+        // Another work offset may have another zero of the axis.
+        if stands.assumed || selects {
             rests(place, context);
         }
         if written.to_bits() != angle.to_bits() {

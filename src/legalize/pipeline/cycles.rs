@@ -6,7 +6,7 @@ use crate::canon::{Op, Role};
 use crate::legalize::codes::{lookahead, waits};
 use crate::legalize::cycles::{
     cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, even_pecks, first_holes, hole_moves,
-    missing_pecks, shift_ways, uneven_pecks,
+    missing_pecks, shift_ways, tap_retracts, uneven_pecks,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::operator::alarms;
@@ -24,6 +24,12 @@ pub(super) const CYCLES: &[Pass] = &[
     Pass::edits("waits", "what is read before the moves are done waits for them", waits::run)
         .when(waits::concerns)
         .needs(&["state", "lookahead"]),
+    Pass::edits(
+        "tap-retracts",
+        "how much faster a tap comes out is left out where there is no word for it",
+        tap_retracts::run,
+    )
+    .when(tap_retracts::concerns),
     Pass::rewrites("hole-moves", "holes become moves, where cycles take no planes", hole_moves::run)
         .when(|c, context| is_mill(context) && drills(c) && hole_moves::replaces(context.target))
         .needs(&["modal-calls", "units", "tool-lengths"])

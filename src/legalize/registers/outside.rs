@@ -114,7 +114,7 @@ pub(super) fn read(program: &Program) -> VarSet {
 }
 
 /// What the library sets by name, or clears.
-pub(super) fn written(module: &Module) -> Vars {
+fn written(module: &Module) -> Vars {
     let by_program = look_at_each(module, |_, program| written_by(program));
     by_program.iter().fold(Vars::default(), |mut all, written| {
         all.join(written);

@@ -6,10 +6,11 @@
 //! another one is asked once. Counter-example: `#714` that becomes `#109`, and `O9810`, which reads `#714`.
 
 use super::names::name_of;
-use super::outside::{Moved, in_words, is_shared, named, read, written, written_by};
+use super::outside::{Moved, in_words, is_shared, named, read, written_by};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
-use crate::ir::{Module, Var};
+use crate::ir::analysis::VarSet;
+use crate::ir::{Expr, Module, Place, StmtKind, Var};
 use crate::legalize::Context;
 use crate::legalize::calls::standing;
 use crate::syntax::ProgramName;
@@ -105,7 +106,7 @@ fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
         Some("same") => return,
         answer => answer == Some("other"),
     };
-    let written = written(module).vars;
+    let written = values_of(module);
     for index in callers.iter().copied() {
         let Some(program) = module.programs.get(index) else { continue };
         let names: Vec<String> = read(program)
@@ -129,4 +130,18 @@ fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
             context.unconfirmed(index, Side::Target, span, QUESTION.fact(), what);
         }
     }
+}
+
+/// The variables that programs of the library give a value. One that is emptied or set to 0 is made ready for a result.
+fn values_of(module: &Module) -> VarSet {
+    let mut all = VarSet::default();
+    for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts) {
+        match (&stmt.kind, stmt.kind.target()) {
+            (StmtKind::Assign { value: Expr::Vacant, .. }, _) => {}
+            (StmtKind::Assign { value, .. }, _) if value.constant() == Some(0.0) => {}
+            (_, Some(Place::Var(var))) => _ = all.insert(*var),
+            _ => {}
+        }
+    }
+    all
 }

@@ -182,7 +182,7 @@ impl<'a> Lowering<'a> {
                 }
                 None => {
                     known = false;
-                    self.unknown_code(id, *span);
+                    self.unknown_code(id, words, *span);
                 }
             }
         }

@@ -111,10 +111,6 @@ impl<'a> Lowering<'a> {
             self.angle_of_stop(word, span);
             return false;
         }
-        if let Some(code) = faster_out(word, codes, in_force) {
-            self.leave_faster_out(&code, span);
-            return false;
-        }
         if let Some(what) = not_converted(word, codes, in_force) {
             self.findings.not_understood(span, what);
             return false;
@@ -223,9 +219,6 @@ impl<'a> Lowering<'a> {
         if self.lone_step(word).is_some() {
             return self.no_step(span);
         }
-        if let Some(code) = faster_out(word, codes, in_force) {
-            return self.leave_faster_out(&code, span);
-        }
         if let Some(what) = not_converted(word, codes, in_force) {
             return self.findings.not_understood(span, what);
         }
@@ -314,17 +307,6 @@ impl<'a> Lowering<'a> {
     }
 }
 
-impl Lowering<'_> {
-    /// Leaves out how much faster a tap comes out: the thread is the same, and takes a little longer.
-    fn leave_faster_out(&mut self, code: &str, span: Span) {
-        let message = format!(
-            "J beside {code} is how much faster the tap comes out than it goes in: it is left out, and the tap comes out as fast as it \
-             went in, or as the target is set to"
-        );
-        self.findings.add(Diagnostic::new(Code::Conditional, span, message).asked_once());
-    }
-}
-
 /// What a word is that the machine knows and no conversion has, in words.
 fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMeaning>) -> Option<String> {
     let has = |op: fn(Op) -> bool| {
@@ -356,15 +338,9 @@ fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMean
                  write the pecks as taps of their own"
             )
         }),
+        'J' => has(taps).map(|code| format!("no source says what J beside {code} is on this control")),
         _ => None,
     }
-}
-
-/// The code of a tap, if the word is how much faster it comes out than it goes in.
-fn faster_out(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMeaning>) -> Option<String> {
-    let taps = |op: Op| matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid);
-    let mut rows = codes.iter().map(|(_, row)| *row).chain(in_force);
-    (word.letter == 'J').then(|| rows.find(|row| taps(row.op))).flatten().map(|row| row.code.clone())
 }
 
 fn is_arc_word(role: Role) -> bool {

@@ -2,24 +2,26 @@
 
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{CodeHead, Machine};
+use crate::dialect::{Beside, CodeHead, Machine};
 use crate::lower::common::constant;
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::codes::CodeId;
-use crate::syntax::{Block, ItemKind};
+use crate::lower::macro_b::parts::Words;
+use crate::syntax::{Block, ItemKind, Word};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
 impl Lowering<'_> {
     /// Refuses a code that the table does not have, or not beside the words of its block.
-    pub fn unknown_code(&mut self, id: CodeId, span: Span) {
+    pub fn unknown_code(&mut self, id: CodeId, words: &Words<'_>, span: Span) {
         let Some(code) = self.codes.get(id) else { return };
         let (letter, number) = (code.head.letter, code.head.number());
         let name = format!("{letter}{number}");
         let of_builder = code.alias.is_none();
         if code.depends {
-            self.in_data |= self.begins_data(code.head);
-            return self.findings.add(self.other_words(&name, code.head, span));
+            let data = self.begins_data(code.head, words);
+            self.in_data |= data;
+            return self.findings.add(self.other_words(&name, code.head, data, span));
         }
         let message = if code.alias.is_some() {
             format!(
@@ -37,13 +39,24 @@ impl Lowering<'_> {
         self.findings.add(if of_builder { finding.asking(letter, number) } else { finding });
     }
 
-    /// True for a code that writes into tables, on a control where a code ends the input of more: then what it begins here is such.
-    fn begins_data(&self, head: CodeHead) -> bool {
-        use Op::{WriteLength, WriteOffset, WriteRadius, WriteTurret, WriteWork};
-        let rows = &self.control.dialect().codes;
-        let writes = |op| matches!(op, WriteLength | WriteOffset | WriteRadius | WriteTurret | WriteWork);
-        rows.iter().any(|row| row.op == Op::DataInputEnd)
-            && rows.iter().any(|row| row.head() == Some(head) && writes(row.op))
+    /// True for a code that writes into tables, beside a word that no row of it has, where a code of a later block ends the input of
+    /// data: what stands between is such data.
+    fn begins_data(&self, head: CodeHead, words: &Words<'_>) -> bool {
+        let rows = self.control.dialect().codes.iter().filter(|row| row.head() == Some(head));
+        let told: Vec<Beside> = rows.filter_map(|row| row.beside()).flatten().collect();
+        let is_strange = |word: &Word| {
+            let number = word.value.as_ref().and_then(constant);
+            let here =
+                number.and_then(|number| CodeHead::new(word.letter, number)).map(|head| head.thousandths);
+            let mut of_letter = told.iter().filter(|one| one.letter == word.letter).peekable();
+            of_letter.peek().is_some()
+                && of_letter.all(|one| one.thousandths.is_some() && one.thousandths != here)
+        };
+        let ends = |block: &&Block| {
+            block.items.iter().any(|item| matches!(item.kind, ItemKind::Program(_) | ItemKind::Tape))
+        };
+        let mut later = self.parsed.blocks.iter().skip(self.at + 1).take_while(|block| !ends(block));
+        words.iter().any(|(word, _)| is_strange(word)) && later.any(|block| self.ends_data(block))
     }
 
     /// True for a block with the code that ends the input of data.
@@ -59,14 +72,14 @@ impl Lowering<'_> {
     }
 
     /// A code that the table knows beside other words alone.
-    fn other_words(&self, name: &str, head: CodeHead, span: Span) -> Diagnostic {
+    fn other_words(&self, name: &str, head: CodeHead, data: bool, span: Span) -> Diagnostic {
         let rows = || self.control.dialect().codes.iter().filter(|row| row.head() == Some(head));
         let all: BTreeSet<&str> = rows().map(|row| row.code.as_str()).collect();
         let all = all.into_iter().collect::<Vec<_>>().join(", ");
         let message = format!(
             "what {name} does beside the words of this block no source says: the table of this control has it as {all} alone"
         );
-        if self.begins_data(head) {
+        if data {
             let message = format!(
                 "{name} begins data here that only this control has in its programs (L3: groups of tool life; L50: parameters): the \
                  table of this control has it as {all} alone"
