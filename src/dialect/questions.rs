@@ -75,11 +75,17 @@ impl Question {
         matches!(
             self,
             Self::Corners
+                | Self::LengthOffZero
                 | Self::MachinePlaces
                 | Self::PowerOffValues
                 | Self::StandingResults
                 | Self::TapDwell
         )
+    }
+
+    /// True for what is set up at each machine, whatever its control does by itself.
+    pub const fn is_set_up(self) -> bool {
+        matches!(self, Self::RotaryWay)
     }
 
     /// True for the answer that a setting gives it, of a question that a table may leave open.
@@ -207,6 +213,7 @@ questions! {
     CycleStartsSpindle "cycle.starts.spindle" YES, "a drilling cycle starts a spindle that a tool change left standing, and a tap any that stands", if "said";
     CycleTapFeed "cycle.tap.feed" OneOf(&["feed", "lead", "unknown"]), "what the words of a tapping cycle mean: feed and speed, or speed and lead", if "op:cycle.tap";
     TapRigid "tap.rigid" OneOf(&["always", "code", "unknown"]), "whether taps are rigid, so that the feed follows the spindle: always, or by a code before them alone", if "said";
+    TapRigidTurns "tap.rigid.turns" YES, "a rigid tap that is a cycle of its own turns a spindle that stands", if "said";
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
     CycleVariablePeck "cycle.variable.peck" NUMBER, "number of the variable that a peck cycle takes the depth of its pecks from", if "said";
@@ -293,13 +300,14 @@ questions! {
     RepeatMoves "repeat.moves" YES, "a repeat word on a move runs the block so many times", if "role:repeat";
     ReferenceLength "reference.length" OneOf(&["kept", "cancelled", "cancelled.along", "unknown"]), "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves", if "op:reference.return";
     StandingResults "standing.results" OneOf(&["same", "other", "unknown"]), "whether programs that stand in this machine (probing macros, say) put their results into the variables of the numbers that the programs read", if "said";
-    MachinePlaces "machine.places" OneOf(&["same", "other", "unknown"]), "whether the places in machine coordinates that the programs name (moves to such a place, and work offsets that they write as numbers) are right on this machine too, or are those of another machine", if "said";
+    LengthOffZero "length.off.zero" OneOf(&["home", "offset", "unknown"]), "where a rapid move to Z0 without a tool length goes: home, since work offsets have Z 0 and lengths are measured from there, or to the zero of the work offset", if "said";
+    MachinePlaces "machine.places" OneOf(&["same", "home", "other", "unknown"]), "whether the places in machine coordinates that the programs name (moves to such a place, and work offsets that they write as numbers) are right on this machine too, or are those of another machine; home if zero is meant as the home of each machine, and other places are those of another", if "said";
     MachineMoveRapid "machine.move.rapid" YES, "a move in machine coordinates is a rapid, whatever interpolation is in force", if "said";
     UnitsAgree "units.agree" YES, "a code for another unit than the control is set to is an alarm", if "said";
     MachineUnderIncremental "machine.under.incremental" OneOf(&["place", "increments", "ignored", "unknown"]), "what the words of a move in machine coordinates are under G91: places as under G90, increments, or nothing, since the code is ignored", if "said";
     MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";
     LengthMoves "length.moves" YES, "a code of the tool length without a word of its axis moves the axis by the length", if "said";
-    ChangeRetracts "change.retracts" YES, "a tool change takes Z to the tool change position first, wherever the program left it", if "said";
+    ChangeRetracts "change.retracts" OneOf(&["true", "false", "alarm", "unknown"]), "a tool change takes Z to the tool change position first, wherever the program left it; or leaves it there (false); or stops with an alarm if Z is not there (alarm)", if "said";
     RotaryWay "rotary.way" OneOf(&["turns", "shortest", "sign", "unknown"]), "how a rotary axis goes to an absolute angle: turns and all, the shortest way to the place \
                                                                               within one turn, or the way that the sign says", if "said";
     RotaryStart "rotary.start" OneOf(&["zero", "unknown"]), "a rotary axis stands at 0 when a program begins and after a return to the reference position, and has one zero under all work \

@@ -164,14 +164,19 @@ impl Driver<'_> {
         if rigid && self.machine.spindle == Spindle::CounterClockwise && cycle.op != Op::CycleTapLeft {
             self.turn(Spindle::Clockwise);
         }
-        self.feed(bottom);
         let (before, back) = match (self.machine.spindle, cycle.op) {
             (Spindle::CounterClockwise, _) | (_, Op::CycleTapLeft) => {
                 (Spindle::CounterClockwise, Spindle::Clockwise)
             }
             _ => (Spindle::Clockwise, Spindle::CounterClockwise),
         };
-        if self.machine.rules.taps_wait {
+        let stands = matches!(self.machine.spindle, Spindle::Stopped | Spindle::Oriented);
+        if stands && !self.machine.rules.lathe && self.machine.rules.taps.starts(cycle.op, self.machine.rigid)
+        {
+            self.turn(before);
+        }
+        self.feed(bottom);
+        if self.machine.rules.taps.wait {
             self.dwell(cycle.dwell);
         }
         self.turn(back);

@@ -6,10 +6,41 @@
 use super::{Command, Machine};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
+use crate::dialect::{Control, Question};
+
+/// How a control taps.
+#[derive(Clone, Copy, Debug)]
+pub struct Taps {
+    /// False where the profile says that the wait of a tap is none.
+    pub wait: bool,
+    /// True if every tap is rigid.
+    pub rigid: bool,
+    /// True if a cycle for rigid taps turns a spindle that stands.
+    turn: bool,
+    /// True if a plain tap does.
+    start: bool,
+}
+
+impl Taps {
+    pub fn of(control: &Control) -> Self {
+        let yes = |question| control.behaviour(question).is_some_and(|row| row.value == "true");
+        Self {
+            wait: control.behaviour(Question::TapDwell).is_none_or(|row| row.value != "none"),
+            rigid: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always"),
+            turn: yes(Question::TapRigidTurns),
+            start: yes(Question::CycleStartsSpindle),
+        }
+    }
+
+    /// True if this tap turns a spindle that stands.
+    pub fn starts(self, op: Op, state: Rigid) -> bool {
+        self.start || self.rigid || state == Rigid::Taps || self.turn && op == Op::CycleTapRigid
+    }
+}
 
 /// How far a rigid tap is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Rigid {
+pub enum Rigid {
     /// Nothing asks for one.
     #[default]
     No,
@@ -26,7 +57,7 @@ pub(super) fn enter(machine: &mut Machine, command: &Command) -> Result<(), Stop
         return Ok(());
     }
     if machine.rigid == Rigid::No && !command.has(Op::RigidTaps) {
-        return if taps && machine.rules.taps_rigid { with_speed(machine, command) } else { Ok(()) };
+        return if taps && machine.rules.taps.rigid { with_speed(machine, command) } else { Ok(()) };
     }
     let asked = machine.rigid == Rigid::Asked;
     if taps && (asked || command.has(Op::RigidTaps)) {

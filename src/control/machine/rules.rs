@@ -4,6 +4,7 @@ mod answers;
 
 use super::frame::UnderIncremental;
 use super::lathe::Turning;
+use super::rigid::Taps;
 use crate::canon::{Act, Auxiliary, Op, Pause, Role, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, Question};
@@ -80,10 +81,8 @@ pub struct Rules {
     pub planes_frozen: Fact<bool>,
     /// How far over the last depth a peck begins, where the machine's profile says it: millimetres.
     pub peck_clearance: Option<f64>,
-    /// False where the profile says that the wait of a tap is none.
-    pub taps_wait: bool,
-    /// True if every tap is rigid.
-    pub taps_rigid: bool,
+    /// How it taps.
+    pub taps: Taps,
     /// True if the code that ends coolant leaves the one through the spindle on, as the profile says.
     pub through_stays: bool,
     pub zero_repeats_stores: Fact<bool>,
@@ -243,14 +242,13 @@ impl Rules {
             negative_radius_is_long: negative_is_long,
             no_centre: fact(control, Question::ArcWithoutCentre, no_centre, NoCentre::Alarm),
             centre_is_incremental: fact(control, Question::ArcCentre, word("incremental", "absolute"), true),
-            taps_wait: control.behaviour(Question::TapDwell).is_none_or(|row| row.value != "none"),
+            taps: Taps::of(control),
             peck_clearance: control.peck_clearance(),
             planes_frozen: yes(control, Question::CyclePlanesFrozen, true),
             zero_repeats_stores: yes(control, Question::CycleL0Stores, true),
             repeats_move: yes(control, Question::RepeatMoves, false),
             zero_repeats_moves: yes(control, Question::CycleL0Moves, false),
             speed_kept: fact(control, Question::SpeedKept, word("mode", "turns"), true),
-            taps_rigid: answers::are(control, Question::TapRigid, "always"),
             through_stays: answers::are(control, Question::CoolantOffThrough, "false"),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),

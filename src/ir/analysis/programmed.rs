@@ -156,6 +156,8 @@ fn keeps_coordinates(op: Op) -> bool {
             | Op::ExactStopOnce
             | Op::Stop
             | Op::OptionalStop
+            | Op::RigidTaps
+            | Op::TapReady
     )
 }
 

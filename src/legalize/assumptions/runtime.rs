@@ -46,7 +46,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let tapping = is_tapping(nc, before);
         (starts || taps && tapping) && !(rigid && tapping)
     };
-    let standing = Standing::of(context.source);
+    let standing = Standing::of(context.source, context.target);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     let stood = (cycles && (starts || taps)).then(|| OverCalls::of(module, &standing));
     let summaries = context.summaries(module);
@@ -63,6 +63,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             let mut state = modal.as_ref().map(|modal| modal.at(index, id));
             let mut spindle =
                 stood.as_ref().and_then(|stood| stood.at(index, id)).copied().unwrap_or_default();
+            // A code for rigid taps stood, or a rigid tap is in force: the target's turns the spindle.
+            let mut turning = false;
             for (at, stmt) in block.stmts.iter().enumerate() {
                 let span = stmt.site.span;
                 let zero = |e: &Expr| zero(e, (id, at));
@@ -70,6 +72,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 if let Some(place) = stmt.kind.target() {
                     value(&place.read(), index, span, &zero, context);
                 }
+                let before = spindle;
                 spindle = standing.after(&stmt.kind, spindle);
                 if let StmtKind::Nc(nc) = &stmt.kind {
                     if let Some(state) = &state
@@ -78,7 +81,15 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         both(context, index, span, Question::CyclePlanesFrozen);
                     }
                     arc(nc, index, span, context);
-                    if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
+                    let ends = |op: Op| op == Op::CycleOff || op.is_cycle() && !op.is_tap();
+                    turning = standing.turns(nc) || turning && !nc.ops().any(ends);
+                    if turning {
+                        if standing.turns(nc) && (before.stands || before.lost)
+                            || state.as_ref().is_some_and(|s| taps_unseen(nc, s))
+                        {
+                            context.rests_on_target(index, span, Question::TapRigidTurns);
+                        }
+                    } else if let Some(state) = state.as_ref().filter(|state| asks(nc, state))
                         && turned_by_cycle(nc, spindle.stands && !spindle.otherwise, state)
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, STANDS));
@@ -202,6 +213,8 @@ struct Standing {
     by_stop: bool,
     /// True where a stop with a message does.
     by_message: bool,
+    /// The target's cycle for rigid taps turns it, and all taps of the source are rigid, or those after a code.
+    rigid: Option<bool>,
 }
 
 impl Follow for Standing {
@@ -221,9 +234,27 @@ impl Follow for Standing {
 }
 
 impl Standing {
-    fn of(source: &Control) -> Self {
+    fn of(source: &Control, target: &Control) -> Self {
         let ends = |pause| source.ends(pause, Running::Spindle).answer == Some(true);
-        Self { by_stop: ends(Pause::Stop), by_message: ends(Pause::Message) }
+        let told = |control: &Control, question| control.behaviour(question).map(|row| row.value.clone());
+        let has = |op| target.code_for(op, &std::collections::BTreeMap::new()).is_some();
+        let turns = told(target, Question::TapRigidTurns).as_deref() == Some("true");
+        let by_cycle = told(target, Question::TapRigid).as_deref() == Some("code") && !has(Op::RigidTaps);
+        let always = told(source, Question::TapRigid).as_deref() == Some("always");
+        Self {
+            by_stop: ends(Pause::Stop),
+            by_message: ends(Pause::Message),
+            rigid: (turns && by_cycle).then_some(always),
+        }
+    }
+
+    /// True for a block from which on the target's rigid tap turns the spindle.
+    fn turns(&self, nc: &Nc) -> bool {
+        match self.rigid {
+            Some(true) => nc.ops().any(Op::is_tap),
+            Some(false) => nc.has(Op::RigidTaps),
+            None => false,
+        }
     }
 
     /// Takes a statement, which may say what the spindle does.
@@ -234,7 +265,7 @@ impl Standing {
                 let says = nc.ops().any(|op| op.group() == Group::Spindle && op != Op::SpindleOrient);
                 let pauses = nc.has(Op::Stop) || nc.has(Op::OptionalStop);
                 let ends = nc.has(Op::ToolChange) || nc.has(Op::SpindleOrient) || self.by_stop && pauses;
-                match (says, ends) {
+                match (says || self.turns(nc), ends) {
                     (true, _) => Spindle { otherwise: true, ..Spindle::default() },
                     (_, true) => standing,
                     _ => before,

@@ -2,11 +2,11 @@
 //!
 //! Law: such a cycle is a plain tap where all taps of the target are rigid, and a plain tap after the code for rigid taps where
 //! the target has that one. The other way round, a tap that is rigid on the source becomes the target's cycle where its plain taps
-//! are not. A code that only gets the spindle ready for such a cycle goes with it. Side conditions, else the tap is refused: the
+//! are not. A code that only gets the spindle ready for such a cycle goes with it, and is written with it. Side conditions, else the tap is refused: the
 //! speed is known for the code; the code for rigid taps stands in the way to the tap with no label between; a left-hand tap has no
 //! such cycle. Counter-example: a plain tap in a rigid holder, which takes up no difference between feed and turns.
 
-use super::rigid_taps::{SPEED, Told, always, code, speed_word, told_before};
+use super::rigid_taps::{SPEED, Told, always, code, ready, speed_word, told_before};
 use super::tap_leads::{Speed, Speeds};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
@@ -109,6 +109,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 } else if taps && by_cycle && (all || asked) && !nc.has(Op::CycleTapRigid) {
                     changed |= become_of(nc, Op::CycleTap, Op::CycleTapRigid);
                     found.extend((!nc.has(Op::CycleTapRigid) || lacks).then_some((span, PLAIN)));
+                    if !asked && has(context.target, Op::TapReady) {
+                        changed = true;
+                        block.stmts.push(ready(&stmt));
+                    }
                 } else if taps && by_cycle && waits && !nc.has(Op::CycleTapRigid) {
                     found.push((span, APART));
                 } else if taps && by_cycle && unknown {

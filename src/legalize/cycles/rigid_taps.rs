@@ -4,7 +4,8 @@
 //! written before each tap where the target's taps are rigid only by it. For a lathe it is written wherever they are not known to be
 //! rigid always, as it does no harm there; live tools get it where their cycle is written. Side conditions: the tap is the next thing
 //! that moves, and nothing turns the spindle between; the spindle does not turn to the left before a right-hand tap; S is a speed of
-//! turns. One that the program computes is read back where the target can: `M29 S#4119`.
+//! turns. A target whose rigid taps are cycles of their own may have a code that gets the spindle ready for them: it stands
+//! in its place. A speed that the program computes is read back where the target can: `M29 S#4119`.
 //! Counter-example: a tap without the code on a control that has it feeds beside a spindle that follows nothing, and a
 //! rigid holder takes up no difference.
 
@@ -55,6 +56,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
     let speeds = OverCalls::of(module, &Speeds);
     let keeps = context.target.code_for(Op::RigidTaps, &BTreeMap::new()).is_some();
+    let readies =
+        context.target.code_for(Op::TapReady, &BTreeMap::new()).is_some() && !always(context.target);
     let lathe = context.target.machine() == Machine::Lathe;
     // A control without taps is asked nothing of them: each is refused as a code that it lacks.
     let has_taps = has_taps(context.target);
@@ -91,6 +94,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 if rigid && !keeps {
                     changed = true;
                     take(&mut stmt, said);
+                    if readies && taps {
+                        block.stmts.push(ready(&stmt));
+                    } else if readies && stmt.kind == StmtKind::Comment {
+                        stmt.kind = ready(&stmt).kind;
+                    } else if readies {
+                        let code = ready(&stmt);
+                        block.stmts.push(std::mem::replace(&mut stmt, code));
+                    }
                     if stmt.kind == StmtKind::Comment
                         && stmt.site.comments.is_empty()
                         && stmt.site.sequence.is_none()
@@ -223,6 +234,12 @@ pub(super) fn told_before(tap: &mut Stmt, before: Option<&Stmt>) {
     {
         tap.items.retain(|item| !matches!(item, NcItem::Word(Role::Speed, _)));
     }
+}
+
+/// The code that gets the spindle of the target ready for a rigid tap, in a block of its own.
+pub(super) fn ready(tap: &Stmt) -> Stmt {
+    let site = SourceInfo { span: tap.site.span, skip: tap.site.skip, ..SourceInfo::default() };
+    Stmt { kind: StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::TapReady)] }), site }
 }
 
 /// The letter number of S in [`Sys::Address`].
