@@ -255,6 +255,7 @@ fn acts_by(dialect: &Dialect, question: Question, row: Option<&Behaviour>, value
     let of_machine = row.is_none() && question.answers() == Answers::Number;
     of_machine
         || question.is_choice()
+        || question.is_set_up()
         || row.is_some_and(settles)
         || registry::all()
             .iter()

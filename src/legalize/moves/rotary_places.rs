@@ -41,13 +41,14 @@ impl Way {
     }
 
     /// True between two controls whose angles are written anew: one of the two goes by the sign, or the source is known to turn back by
-    /// all turns and the target to take the shorter way. Of a source that takes the shorter way each angle past half a turn is refused.
+    /// all turns and the target to take the shorter way, or the other way round.
     pub(in crate::legalize) fn differ(source: &Control, target: &Control) -> bool {
         let is = |control: &Control, way: &str| {
             control.behaviour(Question::RotaryWay).is_some_and(|row| row.value == way)
         };
         let by_sign = [source, target].map(|control| Self::of(control) == Self::Sign);
-        by_sign[0] != by_sign[1] || is(source, "turns") && is(target, "shortest")
+        let pair = |ours, theirs| is(source, ours) && is(target, theirs);
+        by_sign[0] != by_sign[1] || pair("turns", "shortest") || pair("shortest", "turns")
     }
 
     /// How far an axis turns from a place by a word, in the same parts of a degree; none where that is not known.
@@ -250,6 +251,17 @@ impl RotaryPlaces {
         control: &Control,
         origins: &[usize],
     ) -> Self {
+        Self::by(Way::of(control), module, facts, control, origins)
+    }
+
+    /// The same, for axes that go the given way to the angles.
+    pub(in crate::legalize) fn by(
+        way: Way,
+        module: &Module,
+        facts: &ModalFacts,
+        control: &Control,
+        origins: &[usize],
+    ) -> Self {
         let called = called(module);
         // A subroutine that stands in a program's text is never run by itself: it comes after that program here.
         let is_part = |index: usize| index > 0 && origins.get(index - 1) == origins.get(index);
@@ -258,7 +270,7 @@ impl RotaryPlaces {
             .map(|(index, (program, called))| called && !is_part(index) && named(index, program))
             .collect();
         let quiet = quiet(module, facts);
-        let rules = Rules { module, facts, control, way: Way::of(control), alone: &alone, quiet };
+        let rules = Rules { module, facts, control, way, alone: &alone, quiet };
         Self { known: OverCalls::of(module, &rules), alone }
     }
 

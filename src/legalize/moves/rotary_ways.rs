@@ -3,7 +3,8 @@
 //! Law: an axis turns by as much as it turned by, and the same way. On a control of signs an absolute word is a place within one
 //! turn, and its sign the way there; elsewhere it is what the axis has turned by, or the shorter way is taken. Side conditions:
 //! where the axis stands before is known from the text, and the angle is a number; less than a whole turn; less than half of one
-//! where the shorter way is taken. What is in increments stays. Where how many whole turns were made before is not known, but how
+//! where the shorter way is taken. From there to a control that turns back by all turns the words stay: a rapid move to an angle ends there
+//! either way, and is told of; a cut must turn by less than half a turn, within one. What is in increments stays. Where how many whole turns were made before is not known, but how
 //! far it turns is, and where the shorter way is another, the target turns by that in increments, if the block moves nothing else.
 //! Counter-example: `A360.` after `A0.`, a whole turn, which no place with a sign says.
 
@@ -31,16 +32,22 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let source = context.source;
     let places = RotaryPlaces::of(module, &facts, source, &context.origins);
     let ways = (Way::of(source), Way::of(context.target));
+    // Where the axes of a target stand that turns back by all turns.
+    let there = (ways == (Way::Shortest, Way::Turns))
+        .then(|| RotaryPlaces::by(Way::Turns, module, &facts, source, &context.origins));
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let (mut state, mut here) = (facts.at(index, id), places.at(index, id));
+            let mut there = there.as_ref().map(|there| there.at(index, id));
             let stmts = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::replace(&mut block.stmts, stmts) {
                 let (before, from) = (state.clone(), here.clone());
                 state.step(&stmt);
                 here.step(&stmt, (&before, &state), ways.0, source);
+                let target = there.clone();
+                there.iter_mut().for_each(|there| there.step(&stmt, (&before, &state), ways.1, source));
                 let span = stmt.site.span;
                 let aside = is_alone(&stmt, &state, context).then(|| back(span));
                 let kind = Kind { alone: aside.is_some(), rapid: is_rapid(&stmt, &state) };
@@ -49,7 +56,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     match state.op(Group::Distance) {
                         Some(Op::Incremental) => {}
                         Some(_) => {
-                            let done = angles(nc, &from, ways, ((index, span), kind), context);
+                            let done =
+                                angles(nc, (&from, target.as_ref()), ways, ((index, span), kind), context);
                             changed |= done != Done::Nothing;
                             after = aside.filter(|_| done == Done::Turns);
                         }
@@ -127,7 +135,7 @@ fn moves_axis(nc: &Nc) -> bool {
 /// Writes the angles of a block.
 fn angles(
     nc: &mut Nc,
-    from: &Places,
+    (from, there): (&Places, Option<&Places>),
     (ours, theirs): (Way, Way),
     (place, kind): ((usize, Span), Kind),
     context: &mut Context<'_>,
@@ -141,7 +149,8 @@ fn angles(
     let mut done = Done::Nothing;
     let selects = nc.has(Op::SelectWork) || nc.has(Op::ShiftCancel);
     // The angle that it comes to is the same, and nothing is cut on the way.
-    let round = kind.rapid && (ours, theirs) == (Way::Turns, Way::Shortest);
+    let pair = (ours, theirs);
+    let round = kind.rapid && matches!(pair, (Way::Turns, Way::Shortest) | (Way::Shortest, Way::Turns));
     for item in &mut nc.items {
         let NcItem::Word(role, value) = item else { continue };
         let Some(axis) = AXES.iter().position(|axis| axis == role) else { continue };
@@ -153,6 +162,15 @@ fn angles(
             continue;
         };
         let stands = from.of(axis);
+        // The words stay there.
+        if let Some(there) = there {
+            match alike(stands, there.of(axis), angle) {
+                true => {}
+                false if kind.rapid => other_way_round(place, context),
+                false => refuse(HALF, HELP, place, context),
+            }
+            continue;
+        }
         let written = match (written(stands, angle, ours, theirs), turned(stands, angle, ours)) {
             (Err((UNKNOWN | TURNED, _)), Some(by)) if kind.alone && theirs == Way::Turns => {
                 done = Done::Turns;
@@ -186,6 +204,12 @@ fn angles(
         nc.items.insert(0, NcItem::Op(Op::Incremental));
     }
     done
+}
+
+/// True where an axis that takes the shorter way and one that turns back all turns go to an angle alike.
+fn alike(shortest: &Stands, turns: &Stands, angle: f64) -> bool {
+    let [ours, theirs] = [turned(shortest, angle, Way::Shortest), turned(turns, angle, Way::Turns)];
+    ours.is_some() && ours == theirs
 }
 
 /// How far an axis turns, where that is the same from wherever it may stand.
@@ -262,9 +286,9 @@ const UNKNOWN: &str =
 const COMPUTED: &str = "this angle is computed, and so the way that the rotary axis turns is not known";
 const WHOLE: &str = "the rotary axis turns by a whole turn or more here";
 const EITHER: &str = "the rotary axis comes to this angle from both sides";
-const HALF: &str = "the rotary axis turns by half a turn or more here, and the target takes the shorter way";
-const ROUND: &str = "a rotary axis may go to its angle at rapid the other way round than on the source, where it turns back by all that it turned: make \
-     sure that nothing is in its way there, a hose or a line above all";
+const HALF: &str = "the rotary axis cuts here, and it is not certain that it turns by less than half a turn: one control takes the shorter way";
+const ROUND: &str = "a rotary axis may go to its angle at rapid the other way round than on the source: one of the two takes the shorter way, and the \
+     other turns back by all that it turned. Make sure that nothing is in its way there, a hose or a line above all";
 const TURNED: &str = "how many turns the rotary axis has made before this angle is not known";
 const MODE: &str = "whether G90 or G91 is in force at this angle is not known";
 const MODE_HELP: &str = "write G90 or G91 before it";
