@@ -6,12 +6,14 @@
 
 use super::shop::{are_mills, rests};
 use crate::canon::{Group, Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::{Block, BlockId, Expr, Module, Nc, Stmt};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, ModalFacts};
+use crate::text::Span;
 
 /// True if the library changes tools, between two mills whose tables both say something of it.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -24,21 +26,62 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let heights = Heights { facts: &facts };
     let known = OverCalls::of(module, &heights);
+    let is_alarm = |control: &Control| {
+        control.behaviour(Question::ChangeRetracts).is_some_and(|row| row.value == "alarm")
+    };
+    let alarms = is_alarm(context.target) && !is_alarm(context.source);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             let Some(height) = known.at(index, id) else { continue };
             let (mut height, mut state) = (*height, facts.at(index, id));
             for stmt in &block.stmts {
-                if step(stmt, &mut state, &mut height) {
-                    rests(Question::ChangeRetracts, index, stmt.site.span, context);
+                if alarms && !height.home && stmt.kind.has_op(Op::ToolChange) {
+                    context.add_once(
+                        index,
+                        ALARM,
+                        Diagnostic::new(Code::NoEquivalent, stmt.site.span, ALARM),
+                    );
+                }
+                if let Some(rest) = step(stmt, &mut state, &mut height) {
+                    told(rest, (index, stmt.site.span), context);
                 }
             }
             let mut reads = false;
             block.term.kind.exprs(&mut |e| reads |= reads_height(e));
             if reads && height.changed {
-                rests(Question::ChangeRetracts, index, block.term.site.span, context);
+                told(Rest::Height, (index, block.term.site.span), context);
             }
         }
+    }
+}
+
+/// How a statement rests on where a tool change left Z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rest {
+    /// It goes on from there, to a place that it names or across.
+    Across,
+    /// Z moves by increments, or is read.
+    Height,
+}
+
+const HIGHER: &str = "the tool change of the target takes Z to its position first, and the source leaves it where it is: the tool goes on from \
+     higher up than on the old machine";
+
+const ALARM: &str = "the tool change of the target stops with an alarm if Z is not at its position: write G91 G28 Z0 and G90 before it";
+
+/// Says what a statement rests on. A source that stops if Z is not at the position has it there in every program that runs.
+fn told(rest: Rest, (index, span): (usize, Span), context: &mut Context<'_>) {
+    let question = Question::ChangeRetracts;
+    let answer = |control: &Control| {
+        control.behaviour(question).map_or("unknown", |row| row.value.as_str()).to_owned()
+    };
+    match (answer(context.source).as_str(), answer(context.target).as_str()) {
+        ("alarm", _) => context.rests_on_source(index, span, question),
+        (_, "alarm") => {}
+        ("false", "true") if rest == Rest::Across => {
+            context.add_once(index, HIGHER, Diagnostic::new(Code::Conditional, span, HIGHER).asked_once());
+        }
+        _ => rests(question, index, span, context),
     }
 }
 
@@ -81,13 +124,13 @@ impl Follow for Heights<'_> {
     }
 }
 
-/// Takes a statement; true where it rests on where a tool change left Z.
-fn step(stmt: &Stmt, state: &mut Modal, height: &mut Height) -> bool {
+/// Takes a statement; how it rests on where a tool change left Z.
+fn step(stmt: &Stmt, state: &mut Modal, height: &mut Height) -> Option<Rest> {
     state.step(stmt);
     let before = *height;
     let mut reads = false;
     stmt.kind.exprs(&mut |e| reads |= reads_height(e));
-    let Some(nc) = stmt.kind.nc() else { return reads && before.changed };
+    let Some(nc) = stmt.kind.nc() else { return (reads && before.changed).then_some(Rest::Height) };
     let rests = moved(nc, state, height);
     if nc.has(Op::ToolChange) {
         height.changed = !height.home;
@@ -95,7 +138,9 @@ fn step(stmt: &Stmt, state: &mut Modal, height: &mut Height) -> bool {
     if stmt.site.skip.is_some() {
         height.join(&before);
     }
-    before.changed && (reads || rests)
+    let steps = nc.word(Role::Z).is_some() && state.op(Group::Distance) != Some(Op::Absolute);
+    let rest = if reads || steps { Rest::Height } else { Rest::Across };
+    (before.changed && (reads || rests)).then_some(rest)
 }
 
 /// Takes the moves of a block; true where they depend on the height from before.
