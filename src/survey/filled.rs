@@ -4,7 +4,7 @@
 //! these signs away. What is told of questions begins with `#:`, as nothing there is filled in. The next survey takes out
 //! what is left of both, and puts its own in.
 
-use super::keys::needed_by;
+use super::keys::{needed_by, setting_of};
 use super::start::lines as lines_of_start;
 use super::words::with_words;
 use super::{AskedSetting, AskedStart, AskedWord, Survey};
@@ -34,10 +34,7 @@ pub struct Unfit(String);
 /// # Errors
 /// If putting the questions in would change what the profile says.
 pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<String, Unfit> {
-    let control = match side {
-        Side::Source => survey.controls[0],
-        Side::Target => survey.controls[1],
-    };
+    let control = survey.controls[usize::from(side == Side::Target)];
     let fresh = || format!("dialect = \"{}\"\n", control.name());
     let mut text = old.map_or_else(fresh, without_questions);
     if !text.ends_with('\n') {
@@ -56,6 +53,7 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
             lines.push_str(&line);
         }
     }
+    super::kept::others(old.unwrap_or_default(), &|file| survey.has_file(file), &mut asked);
     let lathe = lathe(survey, side);
     if let Some((system, of)) = lathe.as_ref().and_then(|(_, system)| system.as_ref()) {
         let lines = asked.entry("settings").or_default();
@@ -185,6 +183,8 @@ fn about(fact: &Fact<'_>, control: &Control) -> String {
     // The fact's name stands before, and whose it is is plain in a profile.
     let title = format!("{}: ", control.dialect().title);
     let said = asked.text.split_once(&title).map_or(asked.text, |(_, said)| said);
+    // Which value of a parameter is which stands in its own row.
+    let said = setting_of(fact, control).map_or(said, |row| row.meaning.as_str());
     format!("{} ({})", short(&plain(said)), counted(asked.programs, &asked.places))
 }
 

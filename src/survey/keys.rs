@@ -4,8 +4,9 @@ use super::filled::{counted, plain};
 use super::shape::{NAMED, Places};
 use crate::assume::Predicate;
 use crate::diag::Diagnostic;
-use crate::dialect::{CODE_SYSTEM, Control, Question, Setting, Side};
+use crate::dialect::{CODE_SYSTEM, Control, Question, Setting, Settled, Side};
 use crate::library::ProgramReport;
+use crate::report::Fact;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -169,4 +170,11 @@ fn named(finding: &Diagnostic) -> Option<(Side, Arc<str>, Option<f64>)> {
         Predicate::Setting(name, value) => Some((Side::Target, name.clone(), Some(*value))),
         _ => None,
     }
+}
+
+/// The row of the setting that a fact hangs on.
+pub(super) fn setting_of<'c>(fact: &Fact<'_>, control: &'c Control) -> Option<&'c Setting> {
+    let Settled::Setting { section, name, .. } = &fact.settled_by else { return None };
+    let prefix = if *section == "parameters" { "parameter." } else { "setting." };
+    control.setting_row(&format!("{prefix}{name}"))
 }

@@ -9,6 +9,7 @@ mod codes;
 mod digits;
 mod filled;
 mod json;
+mod kept;
 mod keys;
 mod programs;
 mod shape;
@@ -185,6 +186,11 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
 }
 
 impl Survey<'_> {
+    /// True for a file of the library, as places name it.
+    fn has_file(&self, name: &str) -> bool {
+        self.inputs.iter().any(|input| input.name == name || input.path.to_string_lossy() == name)
+    }
+
     /// Converts the library with all answered that was asked so far. True if that asks something new.
     fn answer(&mut self, places: &Places<'_>) -> bool {
         let then = [true, false].map(|chosen| {
