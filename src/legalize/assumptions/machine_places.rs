@@ -28,11 +28,14 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let numbers = Numbers::of(module);
-    let one_family = context.source.dialect().family == context.target.dialect().family;
+    let answer = context.target.behaviour(QUESTION).map(|row| row.value.clone());
+    // Zero is where each machine has its home, as the shop says.
+    let home = answer.as_deref() == Some("home");
+    let one_family = home || context.source.dialect().family == context.target.dialect().family;
     // Under G91 the words are a way on some machines.
     let in_steps = context.source.behaviour(Question::MachineUnderIncremental);
     let in_steps = in_steps.is_some_and(|row| row.value == "increments");
-    let other = context.target.behaviour(QUESTION).is_some_and(|row| row.value == "other");
+    let other = home || answer.as_deref() == Some("other");
     for (index, program) in module.programs.iter().enumerate() {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         let cancels = stmts.any(|stmt| stmt.kind.has_op(Op::ShiftCancel));

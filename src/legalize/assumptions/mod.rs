@@ -2,6 +2,7 @@
 
 pub(in crate::legalize) mod barred;
 pub(in crate::legalize) mod changes;
+pub(in crate::legalize) mod cutter_tables;
 pub(in crate::legalize) mod facts;
 pub(in crate::legalize) mod machine_places;
 pub(in crate::legalize) mod runtime;

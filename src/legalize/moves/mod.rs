@@ -36,4 +36,5 @@ pub(in crate::legalize) mod under_increments;
 pub(in crate::legalize) mod unit_agrees;
 pub(in crate::legalize) mod unit_checks;
 pub(in crate::legalize) mod units;
+pub(in crate::legalize) mod way_home;
 pub(in crate::legalize) mod word_rounds;

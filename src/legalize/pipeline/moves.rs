@@ -12,7 +12,7 @@ use crate::legalize::moves::{
     absolute_places, added_angles, bare_arcs, home, increments, inverse_feeds, long_arcs, machine_feeds,
     machine_moves, off_circle, polar, polar_mode, rapid_once, reference, rotary_turns, rotary_ways,
     rotations, second_home, shaped, shift, short_arcs, turn_cuts, under_increments, unit_agrees, unit_checks,
-    units, word_rounds,
+    units, way_home, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, folded_shifts, kept_length, kept_radius, later_lengths, left_shifts,
@@ -39,6 +39,8 @@ pub(super) const NAMED_LENGTHS: Pass = Pass::edits(
 pub(super) const MOVES: &[Pass] = &[
     Pass::reports("barred", "refuses what settings of the machines give another meaning", barred::run)
         .when(|_, context| barred::concerns(context)),
+    Pass::edits("way-home", "Z0 without a tool length is home where it was", way_home::run)
+        .when(way_home::concerns),
     Pass::edits(
         "rotary-ways",
         "angles of rotary axes have the sign of their way, or what was turned",

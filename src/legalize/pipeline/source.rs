@@ -3,7 +3,7 @@
 use super::Pass;
 use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
-use crate::legalize::assumptions::{changes, facts, machine_places, runtime, shop};
+use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop};
 use crate::legalize::cycles::{
     cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, stored_places,
 };
@@ -101,6 +101,12 @@ pub(super) const SOURCE: &[Pass] = &[
         machine_places::run,
     )
     .when(machine_places::concerns),
+    Pass::reports(
+        "cutter-tables",
+        "tells of cutter tables that hold radii on one machine and diameters on the other",
+        cutter_tables::run,
+    )
+    .when(cutter_tables::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
         .when(changes::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)

@@ -150,6 +150,12 @@ impl Proposals {
         if self.inputs.unworn {
             scenario.tools.values_mut().for_each(|tool| tool.radius_wear = 0.0);
         }
+        if self.inputs.unworn_lengths {
+            scenario.tools.values_mut().for_each(|tool| tool.length_wear = 0.0);
+        }
+        if self.inputs.zero_is_home {
+            scenario.work_offsets.values_mut().for_each(|axes| axes[2] = 0.0);
+        }
         scenario.sets_named = self.inputs.sets_named;
         // What stands for the second reference position of the source is that position.
         for (axis, place) in self.inputs.second_home.into_iter().enumerate() {

@@ -29,9 +29,13 @@ pub struct Inputs {
     pub second_home: [Option<f64>; 3],
     /// How far over the last depth a peck begins on the machine whose profile says it, millimetres: the other is taken to be set so.
     pub peck_clearance: Option<f64>,
-    /// True where tools are not worn: a round pocket takes a tool's radius off by itself, and the target keeps no wear apart, so
-    /// that the shop's table there holds both in one number.
+    /// True where tools are not worn: a program may read the wear, or a round pocket takes a tool's radius off by itself, and the
+    /// target keeps no wear apart, so that the shop's table there holds both in one number.
     pub unworn: bool,
+    /// The same of their lengths.
+    pub unworn_lengths: bool,
+    /// True where Z of all work offsets is 0, as the source's profile says.
+    pub zero_is_home: bool,
     /// True if the control has tool offsets past 99.
     pub many_tools: bool,
     /// The unit that the machine must be set to, where the program checks it: true for inch.

@@ -23,10 +23,14 @@ pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs 
 pub fn set_for(found: Inputs, source: &Side<'_>, target: &Side<'_>) -> Inputs {
     let inch = found.inch.or(found.selected.filter(|_| !target.selects_unit()));
     let sets_named = lacks_messages(source.control) && !lacks_messages(target.control);
-    let unworn = found.unworn && !keeps_wear(target.control);
+    let apart = |kept: &dyn Fn(&Control) -> bool| kept(source.control) && !kept(target.control);
+    let unworn = found.unworn && !keeps_wear(target.control) || apart(&keeps_wear);
+    let unworn_lengths = apart(&|control| control.system_runs(Sys::LengthWear).next().is_some());
+    let zero_is_home =
+        source.control.behaviour(Question::LengthOffZero).is_some_and(|row| row.value == "home");
     let second_home = target.control.second_home();
     let peck_clearance = [source, target].into_iter().find_map(|side| side.control.peck_clearance());
-    Inputs { inch, sets_named, unworn, second_home, peck_clearance, ..found }
+    Inputs { inch, sets_named, unworn, unworn_lengths, zero_is_home, second_home, peck_clearance, ..found }
 }
 
 /// True where a control keeps the wear of a tool's radius in a place of its own.

@@ -294,6 +294,8 @@ impl<'c> Reader<'c> {
             second_home: [None; 3],
             peck_clearance: None,
             unworn: self.pockets,
+            unworn_lengths: false,
+            zero_is_home: false,
             many_tools: false,
             inch: self.inch,
             selected: self.selected,
