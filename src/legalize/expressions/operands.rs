@@ -10,10 +10,11 @@
 //!
 //! Counter-example: `X[ROUND[#1]]` rounds to the increment of X, and `#2=ROUND[#1]` to a whole number.
 
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::dialect::{Compares, Control, Form, Operand, OperandPlace, Question};
 use crate::ir::{
-    BinOp, Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Var,
+    BinOp, Block, Class, Cond, Expr, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
+    Var,
 };
 use crate::legalize::context::Context;
 use crate::legalize::expressions::split::{is_free_all, is_leaf, place_of};
@@ -69,6 +70,10 @@ impl Taker<'_> {
     fn block(&mut self, block: &mut Block) {
         let mut at = 0;
         while let Some(stmt) = block.stmts.get_mut(at) {
+            if let Some(feed) = self.feed_apart(stmt) {
+                block.stmts.insert(at, feed);
+                continue;
+            }
             let skip = stmt.site.skip;
             rewrite::statement(&mut stmt.kind, &mut |e, position| {
                 if !self.is_opposite_radius(e, position) {
@@ -89,6 +94,22 @@ impl Taker<'_> {
         }
         let end = block.stmts.len();
         self.lay(&mut block.stmts, end, None);
+    }
+
+    /// Takes the feed out of a drilling block with more computed words than there are registers for words: it stays in force from a
+    /// block before.
+    fn feed_apart(&mut self, stmt: &mut Stmt) -> Option<Stmt> {
+        let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
+        let class = self.target.form(OperandPlace::Word)?.class.as_deref()?;
+        let row = self.target.classes().iter().find(|row| row.class == class)?;
+        let registers = row.last.saturating_sub(row.first) as usize + 1;
+        let computed = |item: &&NcItem| matches!(item, NcItem::Word(_, value) if !is_literal(value));
+        let many = nc.ops().any(Op::is_cycle) && nc.items.iter().filter(computed).count() > registers;
+        let feed = |item: &NcItem| matches!(item, NcItem::Word(Role::Feed, value) if !is_literal(value));
+        let at = nc.items.iter().position(feed).filter(|_| many)?;
+        self.changed = true;
+        let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
+        Some(Stmt { kind: StmtKind::Nc(Nc { items: vec![nc.items.remove(at)] }), site })
     }
 
     /// True for the radius of an arc in the form that stands for the shorter arc where that has a minus.

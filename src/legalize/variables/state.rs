@@ -2,7 +2,8 @@
 //!
 //! Laws: a diameter is twice a radius; a modal code plus one is the code and one; the seconds since
 //! cycle start are a millisecond timer, set to 0 where the main program starts, over a thousand. A position whose
-//! frame no source settles is taken as the work position, with a review diagnostic from lowering.
+//! frame no source settles is taken as the work position, with a review diagnostic from lowering. The wear of a tool is 0 where
+//! the target's table has one number that holds size and wear.
 
 pub(in crate::legalize) mod additional;
 mod findings;
@@ -174,6 +175,12 @@ fn read(
         Sys::ActiveTool if tool_word::stands_in(target) => {
             Expr::System(Sys::Address, [Expr::Number(f64::from(tool_word::ADDRESS_T))].into())
         }
+        Sys::LengthWear | Sys::RadiusWear | Sys::DiameterWear | Sys::DiameterOrRadiusWear
+            if holds_wear(state, &subscripts, target) =>
+        {
+            found.push((span, Finding::Worn(state)));
+            Expr::Number(0.0)
+        }
         Sys::Pi => Expr::Number(std::f64::consts::PI),
         Sys::Euler => Expr::Number(std::f64::consts::E),
         Sys::Empty => Expr::Vacant,
@@ -188,6 +195,20 @@ fn read(
             Expr::Number(0.0)
         }
     }
+}
+
+/// True where a table has a tool's size, and no wear beside it.
+fn holds_wear(state: Sys, subscripts: &[Expr], target: &Control) -> bool {
+    let sizes: &[Sys] = match state {
+        Sys::LengthWear => &[Sys::LengthGeometry, Sys::ToolOffset],
+        _ => &[Sys::RadiusGeometry, Sys::DiameterGeometry, Sys::DiameterOrRadius],
+    };
+    let wears: &[Sys] = match state {
+        Sys::LengthWear => &[Sys::LengthWear],
+        _ => &[Sys::RadiusWear, Sys::DiameterWear, Sys::DiameterOrRadiusWear],
+    };
+    sizes.iter().any(|size| held(*size, subscripts, target).is_some())
+        && !wears.iter().any(|wear| target.system_runs(*wear).next().is_some())
 }
 
 /// The setting by which a variable may be another one, where the profile does not state it.

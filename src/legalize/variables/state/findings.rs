@@ -23,6 +23,8 @@ pub(super) enum Finding {
     /// The same, if no program of the library names one of them.
     NeverNamed(String),
     Wiring,
+    /// The wear of a tool is in its size on the target.
+    Worn(Sys),
     /// The tool in the spindle stands for the last tool word.
     ToolWord,
     /// The position of the target stands for this one.
@@ -146,6 +148,17 @@ impl Finding {
                                 no probe may have stopped the move";
                     context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
                 }
+            }
+            Finding::Worn(state) => {
+                let what = format!(
+                    "{title} has one number for a tool, and no '{state}' beside it: it is read as 0. Put the sum of size and \
+                     wear into the table"
+                );
+                context.add_once(
+                    index,
+                    &what,
+                    Diagnostic::new(Code::Conditional, span, what.clone()).asked_once(),
+                );
             }
             Finding::Wiring => {
                 let what = "the number of this input or output depends on the machine's wiring: on the \
