@@ -16,6 +16,7 @@ mod search;
 mod settled;
 mod steered;
 mod steered_conditions;
+mod stuck;
 mod summary;
 mod trial;
 mod unit_check;

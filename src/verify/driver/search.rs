@@ -144,6 +144,8 @@ impl Verifier<'_, '_> {
                 "every run stops with an alarm of the control ({alarm}): what comes after is not compared"
             );
             self.because(Why::SourceAlarms, &text);
+        } else {
+            self.tell_stuck();
         }
         if let (count, Some(what)) = std::mem::take(&mut self.cut_short)
             && count >= self.compared

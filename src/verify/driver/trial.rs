@@ -87,6 +87,9 @@ impl Verifier<'_, '_> {
         let excuse = difference.as_ref().and_then(|d| excuse(&tried, run, &other, d));
         self.count(&tried, ended && difference.is_none());
         self.compared += usize::from(ended && excuse.is_none());
+        if ended {
+            self.calls.add(run);
+        }
         let upto = difference.as_ref().map(|difference| difference.target);
         if let Some(difference) = &difference {
             let pair = Pair { scenario, run, there, circumstances: &circumstances, other: &other };

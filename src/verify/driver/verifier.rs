@@ -1,5 +1,6 @@
 //! One program while it is verified: what was found of it so far.
 
+use super::stuck::Calls;
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::verify::certificate::{Edit, OpenFact, Why, Witness};
 use crate::verify::compare::{Tolerance, is_cut};
@@ -62,6 +63,8 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) stopped: Option<String>,
     /// How many runs came to an alarm that stands for a code, and what it stands for.
     pub(super) cut_short: (usize, Option<String>),
+    /// Which calls runs came back from.
+    pub(super) calls: Calls,
     pub(super) sensitive: Option<bool>,
     pub(super) witness: Option<Witness>,
     /// Where the witness was.
@@ -111,6 +114,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             endless: BTreeSet::new(),
             stopped: None,
             cut_short: (0, None),
+            calls: Calls::default(),
             sensitive: None,
             witness: None,
             shown: Shown::default(),

@@ -147,6 +147,13 @@ impl Proposals {
     /// A machine around start values.
     fn around(&mut self, variables: BTreeMap<String, f64>, count: usize) -> Scenario {
         let mut scenario = machine(&mut self.random);
+        // Macros ask whether a cutter fits, and stop with an alarm of their own if it is too big.
+        if count % SMALL_CUTTERS == SMALL_CUTTERS - 1 {
+            scenario
+                .tools
+                .values_mut()
+                .for_each(|tool| tool.radius = (tool.radius / SMALLER * 1000.0).round() / 1000.0);
+        }
         if self.inputs.unworn {
             scenario.tools.values_mut().for_each(|tool| tool.radius_wear = 0.0);
         }
@@ -302,6 +309,10 @@ fn skips(inputs: &Inputs) -> Vec<u32> {
         _ => [0, ALL_SKIPS].into_iter().chain(each).collect(),
     }
 }
+
+/// One in so many machines has small cutters, and how many times smaller they are: half a millimetre across and less.
+const SMALL_CUTTERS: usize = 3;
+const SMALLER: f64 = 40.0;
 
 /// Millimetres that are a whole number of least increments in inches too: 0.005 inch.
 const STEP: f64 = 0.127;
