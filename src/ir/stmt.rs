@@ -60,8 +60,8 @@ pub struct SourceInfo {
     pub sequence: BlockNumber,
     /// Its comments.
     pub comments: ThinVec<Comment>,
-    /// Its block-skip level: skipped when that switch is on. On a terminator always absent:
-    /// lowering makes a branch on [`Cond::Switch`] of it.
+    /// Its block-skip level: skipped when that switch is on. A terminator has it only where it is a branch on
+    /// that [`Cond::Switch`] round blocks each of which had this block skip by itself: it changes nothing, and lets each have it again.
     pub skip: Option<u8>,
 }
 

@@ -42,6 +42,8 @@ pub struct Ends {
     pub head: Option<usize>,
     /// Why it is an alarm.
     pub fault: Option<&'static str>,
+    /// The switch that leaves the other end out and not this one, and why it is an alarm while that is on.
+    pub alone: Option<(u8, &'static str)>,
 }
 
 /// Where a block of a program is.

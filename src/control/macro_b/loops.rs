@@ -9,6 +9,8 @@ pub struct Mark {
     at: usize,
     head: Option<u32>,
     end: Option<u32>,
+    /// The switch that leaves the block out.
+    skip: Option<u8>,
 }
 
 /// A loop head met so far.
@@ -16,20 +18,22 @@ struct Open {
     number: u32,
     block: usize,
     index: usize,
+    skip: Option<u8>,
 }
 
 impl Mark {
     /// None where the block has neither.
     pub fn of(at: usize, block: &Block) -> Option<Self> {
-        let (mut head, mut end) = (None, None);
+        let (mut head, mut end, mut skip) = (None, None, None);
         for step in &block.steps {
             match step {
                 Step::While { tail, .. } => head = Some(*tail as u32),
                 Step::Repeat { head } => end = Some(*head as u32),
+                Step::Skip { level, .. } => skip = Some(*level),
                 _ => {}
             }
         }
-        (head.is_some() || end.is_some()).then_some(Self { at, head, end })
+        (head.is_some() || end.is_some()).then_some(Self { at, head, end, skip })
     }
 }
 
@@ -37,6 +41,7 @@ impl Mark {
 pub fn match_loops(program: &mut Program, marks: &[Mark]) {
     let mut open: Vec<Open> = Vec::new();
     let mut faults: Vec<(usize, &'static str)> = Vec::new();
+    let mut halves: Vec<(usize, u8, &'static str)> = Vec::new();
     if !marks.is_empty() {
         program.loop_of = vec![None; program.count];
     }
@@ -51,7 +56,8 @@ pub fn match_loops(program: &mut Program, marks: &[Mark]) {
                 faults.push((at, "a loop of this number is open already"));
             }
             program.loops.push(Loop { head: at, tail: usize::MAX, outer: around });
-            open.push(Open { number, block: at, index: program.loops.len() - 1 });
+            let index = program.loops.len() - 1;
+            open.push(Open { number, block: at, index, skip: mark.skip });
         }
         fill(program, at, next, open.last().map(|open| open.index));
         if let Some(number) = mark.end {
@@ -61,8 +67,13 @@ pub fn match_loops(program: &mut Program, marks: &[Mark]) {
                     if place + 1 != open.len() {
                         faults.push((at, "loops cross"));
                     }
-                    if let Some(loop_) = program.loops.get_mut(open.remove(place).index) {
+                    let head = open.remove(place);
+                    if let Some(loop_) = program.loops.get_mut(head.index) {
                         loop_.tail = at;
+                    }
+                    if head.skip != mark.skip {
+                        halves.extend(head.skip.map(|level| (at, level, "END without DO")));
+                        halves.extend(mark.skip.map(|level| (head.block, level, "DO without END")));
                     }
                 }
             }
@@ -73,6 +84,9 @@ pub fn match_loops(program: &mut Program, marks: &[Mark]) {
     for loop_ in program.loops.iter().filter(|loop_| loop_.tail != usize::MAX) {
         program.ends.entry(loop_.head).or_default().tail = Some(loop_.tail);
         program.ends.entry(loop_.tail).or_default().head = Some(loop_.head);
+    }
+    for (at, level, text) in halves {
+        program.ends.entry(at).or_default().alone = Some((level, text));
     }
     for (at, text) in faults {
         program.ends.entry(at).or_default().fault = Some(text);
@@ -102,6 +116,12 @@ pub fn set_ends(
                 Step::Repeat { head } => *head = ends.head.unwrap_or(*head),
                 _ => {}
             }
+        }
+        if let Some((level, text)) = ends.alone {
+            // With its own switch on it is left out as well.
+            let own = block.steps.iter().position(|step| matches!(step, Step::Skip { .. }));
+            let before = vec![Step::Alarm(Stop::alarm(style.alarms.loops, text))];
+            block.steps.insert(own.map_or(0, |own| own + 1), Step::Skip { level, before });
         }
         if let Some(text) = ends.fault {
             block.steps = vec![Step::Alarm(Stop::alarm(style.alarms.loops, text))];

@@ -79,9 +79,9 @@ Use each letter once, in order, or only A, B, C and sets of I, J, K."
 Check whether the macro assigns to its arguments. If it does not, nothing changes."
 
     "0345" SkipUnclear Error "unclear block skip"
-"The block-skip sign is in a block that begins or ends a loop, or it stands twice in its block. It is not certain what the control then skips.
+"The block-skip sign is before a block that begins or ends a loop, and not before every block of that loop, or it stands twice in its block. It is not certain what the control then skips.
 
-Put the words to be skipped into a block of their own."
+Put the same block skip before every block of the loop, from its head to its end, and other words to be skipped into a block of their own. No jump or return may come into such a loop elsewhere than at its head."
 
     "0346" ThenMissing Review "THEN is missing"
 "A statement follows the condition without THEN. Some programs are written so, but the maker's text does not have this form. The conversion supposes that the statement runs when the condition holds.

@@ -43,6 +43,7 @@ impl<'p> Emitter<'p> {
         let abilities = Abilities {
             control: self.control,
             guarded: false,
+            skips: false,
             then: false,
             then_messages: false,
             then_words: false,

@@ -2,7 +2,7 @@
 
 use super::loops;
 use crate::dialect::Control;
-use crate::ir::analysis::{Arrivals, callees};
+use crate::ir::analysis::{Arrivals, callees, part_under_skip};
 use crate::ir::{Block, BlockId, Cond, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::ThenLines;
 
@@ -54,6 +54,8 @@ pub(in crate::emit) enum Form {
 pub(in crate::emit) struct Plan {
     /// By block.
     pub forms: Vec<Form>,
+    /// By block: the level of the `/` that stands before each of its lines.
+    pub under: Vec<Option<u8>>,
     /// Which blocks need a sequence number; one more than there are blocks, for the end of the text.
     pub labelled: Vec<bool>,
 }
@@ -71,6 +73,8 @@ pub(in crate::emit) struct Abilities<'c> {
     pub then_messages: bool,
     /// `IF[..]THEN` before words.
     pub then_words: bool,
+    /// A block skip before each line of a part.
+    pub skips: bool,
     /// Loops inside one another; 0 where there is no WHILE.
     pub loops: u32,
 }
@@ -87,6 +91,13 @@ impl Plan {
         let count = program.blocks.len();
         let lines = ThenLines::new(abilities.control);
         let mut layout = Layout { program, arrivals, abilities, joined, lines, forms: vec![None; count] };
+        let mut under = vec![None; count];
+        for at in (0..count).filter(|_| abilities.skips) {
+            if let Some((level, part)) = part_under_skip(program, arrivals, at) {
+                layout.forms[at] = Some(Form::Fall);
+                under[part].fill(Some(level));
+            }
+        }
         for found in loops::find(program, arrivals, abilities.loops) {
             layout.forms[found.header] = Some(Form::While { negated: found.negated, number: found.number });
             layout.forms[found.last] = Some(Form::EndDo(found.number));
@@ -99,7 +110,7 @@ impl Plan {
         }
         let forms: Vec<Form> = layout.forms.into_iter().map(Option::unwrap_or_default).collect();
         let labelled = labelled(program, &forms);
-        Self { forms, labelled }
+        Self { forms, under, labelled }
     }
 }
 

@@ -38,6 +38,8 @@ pub(in crate::emit) struct Line<'p> {
     pub name: Option<&'p str>,
     /// The skip level of the next line.
     pub skip: Option<u8>,
+    /// That of every line from here on.
+    pub under: Option<u8>,
     /// The condition of the next line, which stands after its THEN.
     pub condition: Option<&'p Cond>,
     /// The label that was written last on a line of its own.
@@ -83,7 +85,7 @@ impl<'p> Sheet<'p> {
     pub fn begin(&mut self, site: &'p SourceInfo, kind: Kind, message: Option<&str>) {
         self.span = site.span;
         self.carry(site);
-        let skip = self.line.skip.take().or(site.skip);
+        let skip = self.line.skip.take().or(site.skip).or(self.line.under);
         if skip.is_some() && self.line.label.is_some() {
             // A skipped line need not be found by a jump.
             self.flush_label();

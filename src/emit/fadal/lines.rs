@@ -33,6 +33,8 @@ pub(super) struct Page<'p> {
     skip: bool,
     /// The next statement is skipped while the switch is on, all lines of it.
     pub skip_next: Option<u8>,
+    /// Every line from here on is.
+    pub under: Option<u8>,
     waiting: Vec<&'p Comment>,
     site: Option<&'p SourceInfo>,
     /// Comments in a row that were written on blocks of their own.
@@ -50,6 +52,7 @@ impl Page<'_> {
             start: 0,
             skip: false,
             skip_next: None,
+            under: None,
             waiting: Vec::new(),
             site: None,
             row: 0,
@@ -94,7 +97,7 @@ impl<'p> Emitter<'p> {
     pub(super) fn begin(&mut self, site: &'p SourceInfo, kind: Kind) {
         self.out.span = site.span;
         self.carry(site);
-        let skip = self.page.skip_next.or(site.skip);
+        let skip = self.page.skip_next.or(site.skip).or(self.page.under);
         if skip.is_some_and(|level| level != 1) {
             self.out.unmapped("a block skip of a level");
         }

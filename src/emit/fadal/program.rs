@@ -9,6 +9,10 @@ use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
 use crate::ir::analysis::{Arrivals, callees};
 use crate::ir::{Block, BlockId, Cond, Expr, SourceInfo, StmtKind, TermKind};
+use std::sync::LazyLock;
+
+/// The site of a line that stands for nothing of the source.
+static ELSEWHERE: LazyLock<SourceInfo> = LazyLock::new(SourceInfo::default);
 
 impl<'p> Emitter<'p> {
     /// Writes the program.
@@ -26,6 +30,7 @@ impl<'p> Emitter<'p> {
         let abilities = Abilities {
             control: self.control,
             guarded: false,
+            skips: true,
             then: self.control.statement("if.then").is_some(),
             then_messages: false,
             then_words: false,
@@ -43,8 +48,10 @@ impl<'p> Emitter<'p> {
         let mut condition = None;
         for (at, (block, form)) in program.blocks.iter().zip(&plan.forms).enumerate() {
             self.label(at);
+            self.page.under = plan.under.get(at).copied().flatten();
             condition = self.block(block, *form, condition);
         }
+        self.page.under = None;
         self.label(count);
         self.end_comments();
     }
@@ -162,7 +169,7 @@ impl<'p> Emitter<'p> {
             Form::SkipGoto { level, to, otherwise } => {
                 self.page.skip_next = Some(level);
                 self.goto(site, to);
-                otherwise.into_iter().for_each(|to| self.goto(site, to));
+                otherwise.into_iter().for_each(|to| self.goto(&ELSEWHERE, to));
             }
             Form::While { .. } | Form::EndDo(_) => self.out.unmapped("a loop by WHILE"),
             Form::Own(then) => {

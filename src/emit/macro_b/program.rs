@@ -11,6 +11,10 @@ use crate::emit::common::reach::Reach;
 use crate::ir::analysis::{Arrivals, callees};
 use crate::ir::{Block, BlockId, Cond, SourceInfo, TermKind};
 use crate::syntax::Label;
+use std::sync::LazyLock;
+
+/// The site of a line that stands for nothing of the source.
+static ELSEWHERE: LazyLock<SourceInfo> = LazyLock::new(SourceInfo::default);
 
 /// Bytes that most lines do not reach.
 const USUAL_LINE: usize = 24;
@@ -51,8 +55,10 @@ impl<'p> Emitter<'p> {
         self.header();
         self.taken_registers();
         for (at, (block, form)) in program.blocks.iter().zip(&plan.forms).enumerate() {
+            self.out.line.under = plan.under.get(at).copied().flatten();
             self.block(at, block, *form);
         }
+        self.out.line.under = None;
         self.out.flush_label();
         if let Some(end) = self.out.labels.number(program.blocks.len()) {
             self.out.label_line(end, None);
@@ -73,6 +79,7 @@ impl<'p> Emitter<'p> {
         Abilities {
             control,
             guarded: false,
+            skips: true,
             then: control.statement("if.then").is_some(),
             then_messages: control.statement("if.then").is_some(),
             then_words: control.statement("if.then.words").is_some() || control.is(Question::ThenWords),
@@ -178,7 +185,7 @@ impl<'p> Emitter<'p> {
             Form::SkipGoto { level, to, otherwise } => {
                 self.out.line.skip = Some(level);
                 self.goto(site, to);
-                otherwise.into_iter().for_each(|to| self.goto(site, to));
+                otherwise.into_iter().for_each(|to| self.goto(&ELSEWHERE, to));
             }
             Form::While { negated, number } => {
                 self.begin(site, Kind::Macro, None);

@@ -68,6 +68,7 @@ impl<'p> Emitter<'p> {
     /// reads ahead.
     fn comment(&mut self, site: &'p SourceInfo, held: bool) {
         let repeated = self.out.is_last_span(site.span);
+        let under = self.out.line.under.take();
         self.out.carry(site);
         if self.out.is_waiting() {
             self.begin(site, Kind::Words, None);
@@ -77,6 +78,7 @@ impl<'p> Emitter<'p> {
             self.out.word(";");
             self.out.finish();
         }
+        self.out.line.under = under;
     }
 
     /// Writes the words of a statement that is a block of them.

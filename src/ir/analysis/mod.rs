@@ -28,6 +28,7 @@ mod temps;
 mod text_ends;
 pub(crate) mod tool_word;
 mod touches;
+mod under_skip;
 pub(crate) mod upward_exposed;
 mod vacancy;
 mod values;
@@ -46,6 +47,7 @@ pub use set::{BitRow, Universe, VarSet};
 pub use shared_values::SharedValues;
 pub use temps::Temps;
 pub use text_ends::{last_place, text_ends};
+pub use under_skip::{kept_level, part_under_skip};
 pub use vacancy::{Around, Filled, Vacancy};
 pub use values::{Assigned, Constant, values_at};
 

@@ -2,9 +2,14 @@
 
 use super::{Check, Problem, exists};
 use crate::canon::{Group, Op, Role};
-use crate::ir::{BlockId, Call, Callee, Class, Expr, Nc, NcItem, Place, Stmt, StmtKind, TermKind};
+use crate::ir::{BlockId, Call, Callee, Class, Cond, Expr, Nc, NcItem, Place, Stmt, StmtKind, TermKind};
 use crate::syntax::Label;
 use std::collections::BTreeSet;
+
+/// True for a branch on the switch of this level.
+fn goes_round(term: &TermKind, level: u8) -> bool {
+    matches!(term, TermKind::Branch { cond, .. } if **cond == Cond::Switch(level))
+}
 
 impl Check<'_> {
     pub(super) fn blocks(&mut self) {
@@ -17,7 +22,7 @@ impl Check<'_> {
                 self.stmt(stmt);
             }
             self.statement = None;
-            if let Some(level) = block.term.site.skip {
+            if let Some(level) = block.term.site.skip.filter(|level| !goes_round(&block.term.kind, *level)) {
                 self.add(Problem::Skip(level));
             }
             self.term(&block.term.kind, &labels);

@@ -63,6 +63,8 @@ fn breaches_are_found() {
 fn terminators() {
     assert_eq!(problems(&["end skip 1"]), [Problem::Skip(1)]);
     assert_eq!(problems(&["jump block7"]), [Problem::NoBlock(BlockId(7))]);
+    assert!(problems(&["branch switch 1 ? block0 : block0 skip 1"]).is_empty());
+    assert_eq!(problems(&["branch switch 1 ? block0 : block0 skip 2"]), [Problem::Skip(2)]);
     assert_eq!(problems(&["branch switch 0 ? block0 : block0"]), [Problem::Skip(0)]);
     let jump = |targets: &str| problems(&[&format!("computed 1 {{{targets}}}"), "block1 (N10):", "end"]);
     assert_eq!(jump("10: block0"), [Problem::Label { label: 10, target: BlockId(0) }]);

@@ -5,12 +5,18 @@
 //! them gets its `/` again. Side conditions: nothing comes into the run but at its head, and nothing leaves it but by calls that come
 //! back. Where a pass put another way into the run, it stays a branch. Counter-example: a label in the run that a jump goes to.
 
-use crate::ir::analysis::Arrivals;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::{Arrivals, kept_level, part_under_skip};
 use crate::ir::{BlockId, Cond, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator};
 use crate::legalize::Context;
 use crate::legalize::features::Feature;
 use crate::legalize::rewrite::{Part, rebuild};
 use std::collections::{BTreeMap, BTreeSet};
+
+const ENTERED: &str = "a loop under a block skip that a jump or a return may come into elsewhere than at its head: it is not certain \
+    what the control skips";
+
+const AT_HEAD: &str = "let jumps and returns go to a block before the loop";
 
 /// A place in a program: a block, and a statement of it; past the last one stands its end.
 type Place = (usize, usize);
@@ -29,6 +35,8 @@ struct Run {
     /// The blocks whose ends go round one call of the run.
     rounds: Vec<usize>,
     blocks: usize,
+    /// True if a loop is in it, each block of which gets the block skip where it is written.
+    loops: bool,
 }
 
 /// True if control comes into a block from these two alone.
@@ -80,7 +88,7 @@ fn run_at(program: &Program, ways: &Arrivals, (mut at, mut number): Place) -> Op
         Some(stmt) => stmt.site.skip.filter(|_| stmt.kind != StmtKind::Comment)?,
         None => switch(&first.term)?.0,
     };
-    let mut run = Run { level, end: (at, number), rounds: Vec::new(), blocks: 0 };
+    let mut run = Run { level, end: (at, number), rounds: Vec::new(), blocks: 0, loops: false };
     while let Some(block) = program.blocks.get(at) {
         let goes = |stmt: &&Stmt| stmt.site.skip == Some(level) || stmt.kind == StmtKind::Comment;
         for (number, _) in block.stmts.iter().enumerate().skip(number).take_while(|(_, stmt)| goes(stmt)) {
@@ -93,6 +101,16 @@ fn run_at(program: &Program, ways: &Arrivals, (mut at, mut number): Place) -> Op
         }
         number = 0;
         match (switch(&block.term), &block.term.kind) {
+            (Some((_, on, _)), _) if kept_level(&block.term) == Some(level) => {
+                let Some((_, part)) = part_under_skip(program, ways, at) else { break };
+                let from = |from: &usize| *from == at || part.contains(from);
+                if ways.is_entered(on.index()) || !ways.of(on.index()).iter().all(from) {
+                    break;
+                }
+                run.rounds.push(at);
+                run.loops = true;
+                (run.blocks, run.end, at) = (run.blocks + 1, (on.index(), 0), on.index());
+            }
             (Some((other, on, off)), _) if other == level => {
                 let body = chain(program, ways, at, off.index(), on.index());
                 let Some(last) = body.and_then(|body| body.last().copied()) else { break };
@@ -126,9 +144,24 @@ fn runs(program: &Program, ways: &Arrivals) -> BTreeMap<Place, Run> {
     found
 }
 
+/// Tells of loops under a block skip that control may come into elsewhere than at their heads.
+fn entered(program: &Program, ways: &Arrivals, mut tell: impl FnMut(Diagnostic)) {
+    for (at, block) in program.blocks.iter().enumerate() {
+        if kept_level(&block.term).is_some() && part_under_skip(program, ways, at).is_none() {
+            let head = program.blocks.get(at + 1..).unwrap_or_default().iter();
+            let spans = head.flat_map(|block| {
+                block.stmts.iter().map(|stmt| stmt.site.span).chain([block.term.site.span])
+            });
+            let span = spans.into_iter().find(|span| !span.is_empty()).unwrap_or(block.term.site.span);
+            tell(Diagnostic::new(Code::SkipUnclear, span, ENTERED).with_help(AT_HEAD));
+        }
+    }
+}
+
 /// Makes runs of blocks with a block skip branches; true where there was one.
-pub fn together(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
+pub fn together(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let ways = arrivals(program, context);
+    entered(program, &ways, |told| context.add(index, told));
     let runs = runs(program, &ways);
     if runs.is_empty() {
         return false;
@@ -150,7 +183,8 @@ pub fn together(program: &mut Program, _: usize, context: &mut Context<'_>) -> b
         if let Some(run) = runs.get(&place) {
             let (body, end) = (builder.fresh(), builder.fresh());
             let cond = Box::new(Cond::Switch(run.level));
-            builder.end(TermKind::Branch { cond, then: end, otherwise: body }, SourceInfo::default());
+            let site = SourceInfo { skip: Some(run.level).filter(|_| run.loops), ..SourceInfo::default() };
+            builder.end(TermKind::Branch { cond, then: end, otherwise: body }, site);
             builder.start(body);
             open = Some((run.level, end));
         }
@@ -164,7 +198,7 @@ pub fn together(program: &mut Program, _: usize, context: &mut Context<'_>) -> b
             }
             Part::Term(term) => match switch(&term) {
                 Some((_, _, off)) if open.is_some() && rounds.contains(&place.0) => {
-                    builder.end(TermKind::Jump(off), term.site);
+                    builder.end(TermKind::Jump(off), SourceInfo { skip: None, ..term.site });
                 }
                 _ => builder.end(term.kind, term.site),
             },

@@ -78,6 +78,30 @@ fn a_skipped_block_is_passed_over_where_its_switch_is_on() {
 }
 
 #[test]
+fn a_loop_whose_blocks_are_all_skipped_is_passed_over() {
+    for dialect in ["fanuc", "haas"] {
+        let control = Control::plain(dialect).expect("the table loads");
+        let with = |text: &str, block_skip| {
+            run_on(&control, &[text], &Scenario { block_skip, ..Scenario::default() })
+        };
+        let whole = "O1\n/WHILE[#101LT3]DO1\n/#101=#101+1\n/DO2\n/#102=#102+1\n/IF[#102GT9]GOTO5\n/END2\n/N5#102=0\n/END1\n#103=7\nM30\n";
+        let run = with(whole, 0);
+        assert_eq!((value(&run, "#101"), value(&run, "#103")), (Some(3.0), Some(7.0)), "{dialect}");
+        let run = with(whole, 1 << 1);
+        assert!(value(&run, "#101").is_none_or(|value| value == 0.0), "{dialect}");
+        assert_eq!(value(&run, "#103"), Some(7.0), "{dialect}");
+        // One of its ends alone is a fault while the other one is left out.
+        for half in ["O1\n/DO1\n#101=1\nEND1\nM30\n", "O1\n#101=8\nWHILE[#101GT7]DO1\n#101=1\n/2END1\nM30\n"]
+        {
+            let run = with(half, 1 << 1 | 1 << 2);
+            assert!(matches!(run.end, End::Alarm { .. }), "{dialect} {half}: {:?}", run.end);
+        }
+        let run = with("O1\n#101=8\n/WHILE[#101GT7]DO1\n#101=1\nEND1\nM30\n", 0);
+        assert_eq!((value(&run, "#101"), run.end), (Some(1.0), End::Ended), "{dialect}");
+    }
+}
+
+#[test]
 fn words_before_and_after_a_block_skip_are_one_block() {
     let control = Control::plain("fanuc").expect("the table loads");
     let with = |block_skip| {

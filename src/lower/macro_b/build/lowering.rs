@@ -41,6 +41,8 @@ pub struct Lowering<'a> {
     pub nowhere: Nowhere,
     /// The loops that are open here, innermost last.
     pub loops: Vec<Loop>,
+    /// The loop under a block skip that is open here.
+    pub skipped: Option<SkippedLoop>,
     /// Modal calls that were begun and not ended, as the text has it.
     pub modal_calls: usize,
     /// The motion code in force as the text has it, for the roles of words that stand without one.
@@ -48,6 +50,8 @@ pub struct Lowering<'a> {
     pub known: RolesUnder,
     /// Index of the block being lowered.
     pub at: usize,
+    /// The block after the last one of the program.
+    pub end: usize,
     /// True in a program that a code calls, where such codes call nothing.
     pub aliased: bool,
     /// True where a word or an argument has a signed variable for its value.
@@ -72,6 +76,17 @@ pub struct Loop {
     pub head: BlockId,
     pub exit: BlockId,
     pub site: SourceInfo,
+}
+
+/// A loop under a block skip that has begun.
+pub struct SkippedLoop {
+    pub level: u8,
+    /// The block of the file where it ends.
+    pub end: usize,
+    /// Where control goes on.
+    pub next: BlockId,
+    /// The motion code in force before it.
+    pub before: Motion,
 }
 
 /// The motion code in force as the text has it.
@@ -128,10 +143,12 @@ impl<'a> Lowering<'a> {
             hub: None,
             nowhere: Nowhere::default(),
             loops: Vec::new(),
+            skipped: None,
             modal_calls: 0,
             motion: Motion::default(),
             known: RolesUnder::default(),
             at: piece.body.start,
+            end: piece.body.end,
             aliased,
             signed: false,
             lookahead_limited: false,

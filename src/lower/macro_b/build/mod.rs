@@ -2,4 +2,4 @@
 
 mod lowering;
 
-pub use lowering::{Loop, Lowering, Motion, RolesUnder};
+pub use lowering::{Loop, Lowering, Motion, RolesUnder, SkippedLoop};

@@ -37,6 +37,17 @@ fn is_unnamed(text: &[u8]) -> bool {
     })
 }
 
+/// The levels of the block skips before the first item that acts, and those after it with their places.
+pub(super) fn levels(items: &[Item], first: usize) -> (SmallVec<[u8; 2]>, SmallVec<[(usize, u8); 2]>) {
+    let (mut head, mut middle) = (SmallVec::new(), SmallVec::new());
+    for (index, item) in items.iter().enumerate() {
+        let ItemKind::Skip(level) = item.kind else { continue };
+        let level = level.unwrap_or(1).clamp(1, 9);
+        if index < first { head.push(level) } else { middle.push((index, level)) }
+    }
+    (head, middle)
+}
+
 /// What stands on a block, besides words and comments.
 #[derive(Default)]
 struct Contents {
@@ -180,26 +191,26 @@ impl<'a> Lowering<'a> {
     /// A block with a block skip.
     fn skipping(&mut self, block: &'a Block, first: usize, mut site: SourceInfo) {
         let items = block.items.as_slice();
-        let mut head: SmallVec<[u8; 2]> = SmallVec::new();
-        let mut middle: SmallVec<[(usize, u8); 2]> = SmallVec::new();
-        for (index, item) in items.iter().enumerate() {
+        for item in items {
             let ItemKind::Skip(level) = item.kind else { continue };
             let level = level.unwrap_or(1);
             if !(1..=9).contains(&level) {
                 self.findings.not_understood(item.span, "the level of a block skip is 1 to 9");
             }
-            let level = level.clamp(1, 9);
             if level > 1 && !self.findings.is(Question::SkipLevels, item.span) {
                 self.unknown_behaviour(Question::SkipLevels, item.span);
             }
-            if index < first { head.push(level) } else { middle.push((index, level)) }
         }
+        let (head, middle) = levels(items, first);
         site.skip = None;
+        if let ([level], []) = (head.as_slice(), middle.as_slice())
+            && self.skipped_loop(block, *level, &site)
+        {
+            return;
+        }
         let loops = items.iter().any(|i| matches!(i.kind, ItemKind::Do { .. } | ItemKind::End { .. }));
         if loops || head.len() > 1 || middle.len() > 1 || (!head.is_empty() && !middle.is_empty()) {
-            let message = "a block skip together with a loop or a second skip: it is not certain what the control \
-                 skips";
-            self.findings.add(Diagnostic::new(Code::SkipUnclear, block.span, message));
+            self.unclear_skip(block, loops);
             return self.builder.push(StmtKind::Comment, site);
         }
         if let Some(&(index, level)) = middle.first() {

@@ -185,6 +185,12 @@ fn block_skip() {
         "Z-1.0/M08",
         "0: branch switch 1 ? b1 : b2\n1: nc axis.z=-1 | jump b3\n2: nc axis.z=-1 coolant.flood | jump b3\n3: stray",
     );
+    // The switch is asked once for a whole loop.
+    means(
+        "fanuc",
+        "/DO1\n/#1=1\n/END1\n#2=2",
+        "0: branch switch 1 ? b4 : b1\n1: jump b2\n2: local.1 = 1 | jump b2\n3: jump b4\n4: local.2 = 2 | stray",
+    );
     refuses("fanuc", "DO1\n/END1", &[Code::LoopNotPaired, Code::SkipUnclear]);
     refuses("fanuc", "/G0X1./M8", &[Code::SkipUnclear]);
 }
