@@ -1,6 +1,7 @@
 //! What changes while a modal call is open: locals that one run of its macro leaves for the next one, and variables that
 //! its arguments read.
 
+use super::defaults;
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::calls_of;
@@ -12,7 +13,7 @@ use crate::ir::{
     Var,
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
 /// Numbers of locals.
@@ -23,11 +24,16 @@ pub type Numbers = RangeInclusive<u32>;
 
 /// A local that a macro writes, and may read before that: one run leaves it to the next. None if each run begins alike.
 pub fn local(module: &Module, called: &CalledPrograms, at: usize, numbers: &Numbers) -> Option<u32> {
-    let mut written = Locals::new();
+    let (mut written, mut elsewhere) = (Locals::new(), Locals::new());
     // What shares the level: subprograms, whatever they call at the same level, and where they return to.
     let shared = reached([at], |index, go| {
         let program = &module.programs[index];
         written.extend(program.blocks.iter().flat_map(|block| may_write(block, numbers)));
+        let others = program.blocks.iter().flat_map(|block| match index == at {
+            true => computed_writes(block, numbers),
+            false => may_write(block, numbers),
+        });
+        elsewhere.extend(others);
         for (id, block) in program.ids().zip(&program.blocks) {
             if let TermKind::Call { call, .. } = &block.term.kind
                 && !call.level
@@ -39,7 +45,9 @@ pub fn local(module: &Module, called: &CalledPrograms, at: usize, numbers: &Numb
     let of_others = shared.iter().filter(|other| **other != at).map(|other| &module.programs[*other]);
     let mut read: Locals =
         of_others.flat_map(|other| other.blocks.iter().flat_map(|block| reads(block, numbers))).collect();
-    read.extend(early(&module.programs[at], numbers));
+    let program = &module.programs[at];
+    let tests = defaults::tests(module, program, &written, &elsewhere);
+    read.extend(early(program, numbers, tests));
     read.intersection(&written).next().copied()
 }
 
@@ -149,10 +157,11 @@ pub fn sets(program: &Program, local: Var) -> bool {
     program.blocks.iter().any(|block| calls(block) || writes(block).contains(&local.number))
 }
 
-/// What a program may read before it wrote it.
-fn early(program: &Program, numbers: &Numbers) -> Locals {
+/// What a program may read before it wrote it, or before it tested it to give it a default.
+fn early(program: &Program, numbers: &Numbers, tests: BTreeMap<BlockId, u32>) -> Locals {
     let all: Locals = program.blocks.iter().flat_map(writes).collect();
-    let before = solve(&Written, program, &Cfg::of(program));
+    let written_before = Written { tests };
+    let before = solve(&written_before, program, &Cfg::of(program));
     let mut found = Locals::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         // Where no way leads, all is.
@@ -164,13 +173,17 @@ fn early(program: &Program, numbers: &Numbers) -> Locals {
             stmt.kind.exprs(&mut |e| look(e, &sure));
             sure.extend(stmt.kind.target().and_then(written));
         }
+        sure.extend(written_before.tests.get(&id));
         block.term.kind.exprs(&mut |e| look(e, &sure));
     }
     found
 }
 
-/// The locals that every way to a place writes.
-struct Written;
+/// The locals that every way to a place writes, or gives a default.
+struct Written {
+    /// By the block whose end tests it.
+    tests: BTreeMap<BlockId, u32>,
+}
 
 impl Analysis for Written {
     type State = Every<u32>;
@@ -180,8 +193,9 @@ impl Analysis for Written {
         vec![(BlockId(0), Every(Locals::new()))]
     }
 
-    fn block(&self, _: BlockId, block: &Block, written: &mut Every<u32>) {
+    fn block(&self, id: BlockId, block: &Block, written: &mut Every<u32>) {
         written.0.extend(writes(block));
+        written.0.extend(self.tests.get(&id));
     }
 }
 
@@ -208,6 +222,13 @@ fn is_low(number: &Expr, numbers: &Numbers) -> bool {
 /// What a block may write: a computed number may be that of any.
 fn may_write(block: &Block, numbers: &Numbers) -> Locals {
     let mut out = writes(block);
+    out.extend(computed_writes(block, numbers));
+    out
+}
+
+/// What a block may write by a computed number.
+fn computed_writes(block: &Block, numbers: &Numbers) -> Locals {
+    let mut out = Locals::new();
     for place in block.stmts.iter().filter_map(|stmt| stmt.kind.target()) {
         if let Place::Indirect(Bank::Numbered, number) = place
             && is_low(number, numbers)

@@ -2,6 +2,7 @@
 
 pub(in crate::legalize) mod carried;
 pub(in crate::legalize) mod chain;
+mod defaults;
 pub(in crate::legalize) mod inlined;
 pub(in crate::legalize) mod jump_chains;
 pub(in crate::legalize) mod link;
