@@ -56,6 +56,8 @@ pub enum Told {
     SameTool,
     /// A spindle that a drilling cycle stops, turns round, or lets turn again.
     Cycle,
+    /// A wait at the bottom of the hole of a drilling cycle.
+    Bottom(Op),
     /// A move of the roughing of a contour.
     Pass,
 }

@@ -227,6 +227,9 @@ impl Driver<'_> {
         if seconds > 0.0 {
             self.machine.clock += seconds * 1000.0;
             self.trace.push(EventKind::Dwell { seconds });
+            if let Some(cycle) = &self.machine.cycle {
+                self.trace.tell(Told::Bottom(cycle.op));
+            }
         }
     }
 

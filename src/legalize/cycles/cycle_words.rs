@@ -4,11 +4,11 @@
 //! a word that its code does not take. So where only the target's code takes a dwell, it is told one of 0, and the
 //! dwell of before is told again where the next code that takes one has none of its own. A word that only the
 //! source's code takes is refused, and so is a dwell of before that only the source's code takes; a dwell of 0 is left
-//! out. Side conditions: which cycle is in force is known, and which dwell lasts into it on every way; a person looks where
+//! out, and that of a bore too, which is told. Side conditions: which cycle is in force is known, and which dwell lasts into it on every way; a person looks where
 //! the letter of that dwell means something else beside the next code. Counter-example: `G82 P500 .. G83`, where the
 //! source's G83 takes no P and the target's waits half a second.
 
-use super::{fine_shifts, peck_clear, tap_waits};
+use super::{bore_waits, fine_shifts, peck_clear, tap_waits};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
@@ -61,6 +61,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 }
                 let [own, others] = waits(op, context);
                 let dwell = match (own, others, here.dwell) {
+                    (true, false, Dwell::Is(Some(dwell)))
+                        if bore_waits::is_bore(op, context.target) && dwell.constant() != Some(0.0) =>
+                    {
+                        bore_waits::left_out(index, span, (op, Some(&dwell)), context);
+                        continue;
+                    }
+                    (true, false, Dwell::Many) if bore_waits::is_bore(op, context.target) => {
+                        bore_waits::left_out(index, span, (op, None), context);
+                        continue;
+                    }
                     (true, false, Dwell::Is(Some(dwell))) if dwell.constant() != Some(0.0) => {
                         let what = format!(
                             "the dwell of an earlier cycle is still in force in this one ({op}), and the \
@@ -109,13 +119,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
-/// Refuses a word that the target's code does not take, but for a clearance that the target's machine has by itself.
+/// Refuses a word that the target's code does not take, but for a clearance that the target's machine has by itself, and for the wait
+/// of a bore, which is left out.
 fn refuse(
     index: usize,
     (nc, span): (&mut Nc, Span),
     (op, role): (Op, Role),
     (state, context): (&Modal, &mut Context<'_>),
 ) {
+    if role == Role::CycleDwell && bore_waits::is_bore(op, context.target) {
+        bore_waits::left_out(index, span, (op, nc.word(role)), context);
+        return nc.items.retain(|item| !matches!(item, NcItem::Word(Role::CycleDwell, _)));
+    }
     let told = Diagnostic::new(Code::NoEquivalent, span, word_too_much(op, role, context));
     let needed = if role == Role::PeckClear { peck_clear::fit(nc, state, context) } else { None };
     match needed {

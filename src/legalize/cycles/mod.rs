@@ -1,6 +1,7 @@
 //! Drilling cycles and dwells.
 
 pub(in crate::legalize) mod bare_dwells;
+mod bore_waits;
 pub(in crate::legalize) mod cycle_arcs;
 pub(in crate::legalize) mod cycle_ends;
 pub(in crate::legalize) mod cycle_here;

@@ -315,7 +315,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             self.moved(0, act);
             return true;
         }
-        if let Some(replaced) = is_left_out(self.target, what) {
+        if let Some(replaced) = is_left_out(self.target, what, act.told) {
             self.found.replaced.insert(replaced);
             return true;
         }

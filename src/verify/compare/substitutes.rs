@@ -6,8 +6,8 @@
 //! the program one for review.
 
 use super::kinds::is_mode;
-use crate::canon::Op;
-use crate::control::trace::EventKind;
+use crate::canon::{Op, Role};
+use crate::control::trace::{EventKind, Told};
 use crate::dialect::Question;
 use crate::verify::sides::Side;
 use std::collections::BTreeMap;
@@ -35,11 +35,30 @@ pub fn goes_on(target: &Side<'_>, source: &EventKind, there: Op) -> Option<(Op, 
         .then(|| (lacking, format!("the target has only one kind of coolant: {there} is on")))
 }
 
-/// A mode of corners or ramps, an exact stop of one block, or a limit on reading ahead, that the target has no code for.
-pub fn is_left_out(target: &Side<'_>, source: &EventKind) -> Option<(Op, String)> {
+/// A mode of corners or ramps, an exact stop of one block, or a limit on reading ahead, that the target has no code for, and a wait at
+/// the bottom of a bore, that it has no word for.
+pub fn is_left_out(target: &Side<'_>, source: &EventKind, told: Told) -> Option<(Op, String)> {
+    if let Told::Bottom(op) = told {
+        return waits_at_bottom(target, source, op);
+    }
     let EventKind::Other { operation, .. } = source else { return None };
     ((is_mode(source) || *operation == Op::ExactStopOnce) && lacks(target, *operation))
         .then(|| (*operation, format!("the target has no {operation}: it is dropped")))
+}
+
+/// A wait at the bottom of a bore, beside whose code the target takes no wait: the tool stands, and no axis moves for it.
+fn waits_at_bottom(target: &Side<'_>, source: &EventKind, op: Op) -> Option<(Op, String)> {
+    let EventKind::Dwell { seconds } = source else { return None };
+    let bores = matches!(op, Op::CycleFineBore | Op::CycleBackBore | Op::CycleBoreStop);
+    let code =
+        target.control.code_for(op, &BTreeMap::new()).filter(|row| bores && !row.takes(Role::CycleDwell))?;
+    Some((
+        op,
+        format!(
+            "the source waits {seconds} s at the bottom of a bore: the target's {} has no wait",
+            code.code
+        ),
+    ))
 }
 
 /// A tool that is made ready, where a tool word of the target changes the tool. Each change is compared by its tool.

@@ -107,6 +107,23 @@ fn a_substitute_that_was_told_is_no_reason() {
     assert_eq!(dry.outcome, Outcome::Different);
 }
 
+/// A wait at the bottom of a bore, beside whose code the target takes none: left out there, and nowhere else.
+#[test]
+fn a_wait_of_a_bore_that_was_told_is_no_reason() {
+    let bore = "O1\nG21G90G17G94G54\nS500M3\nG0X0.Y0.Z50.\nG98G87X30.Z5.R-20.Q.3P300F50.\nG80\nM30\n";
+    let there = bore.replace("G87", "G77").replace("P300", "");
+    let told = [assumption(Predicate::Substitute(Op::CycleBackBore))];
+    let found = one(bore, &there, &told);
+    assert!(found.outcome != Outcome::Different && !has(&found, Why::Substituted), "{found:#?}");
+    assert!(has(&one(bore, &there, &[]), Why::Substituted));
+    // What else differs in the bore is seen, and so is the wait of another hole.
+    assert_eq!(one(bore, &there.replace("Z5.", "Z6."), &told).outcome, Outcome::Different);
+    let hole = bore.replace("G87", "G82").replace("Q.3", "");
+    assert_eq!(one(&hole, &hole.replace("P300", ""), &told).outcome, Outcome::Different);
+    let wait = bore.replace("G80", "G80\nG4P300");
+    assert_eq!(one(&wait, &there, &told).outcome, Outcome::Different);
+}
+
 #[test]
 fn what_is_not_seen_in_runs_is_listed_and_decides_nothing() {
     let source = "O1\nG21G90\nG0X5.\nM30\n";
