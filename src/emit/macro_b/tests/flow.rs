@@ -254,6 +254,48 @@ fn a_jump_from_inside_to_before_the_loop_does_not_hit_its_while() {
 }
 
 #[test]
+fn a_loop_whose_branch_keeps_the_level_has_a_slash_before_each_line() {
+    let program = |jumped_to: u32| {
+        let mut made = blocks([
+            (&[], vec![mv(9.0)], branch(gt(3, 0.0), jumped_to, 1)),
+            (&[], vec![], branch(Cond::Switch(2), 4, 2)),
+            (&[], vec![], branch(le(1, 9.0), 3, 4)),
+            (&[], vec![mv(1.0), set(1, add(v(1), n(1.0)))], jump(2)),
+            (&[], vec![], END),
+        ]);
+        made.blocks[1].term.site.skip = Some(2);
+        made
+    };
+    fanuc(
+        &program(4),
+        &[
+            "X9.",
+            "IF [#3 GT 0] GOTO 10",
+            "/2 WHILE [#1 LE 9] DO1",
+            "/2 X1.",
+            "/2 #1=#1+1",
+            "/2 END1",
+            "N10 M30",
+        ],
+    );
+    // Where something else comes into it, the switch is asked once, and the way round it is not skipped.
+    fanuc(
+        &program(3),
+        &[
+            "X9.",
+            "IF [#3 GT 0] GOTO 20",
+            "/2 GOTO 10",
+            "GOTO 30",
+            "N10 IF [#1 GT 9] GOTO 30",
+            "N20 X1.",
+            "#1=#1+1",
+            "GOTO 10",
+            "N30 M30",
+        ],
+    );
+}
+
+#[test]
 fn the_block_skip_switch_is_a_slash() {
     let program = |cond, then, otherwise, stmts, kind| {
         blocks([(&[], vec![], branch(cond, then, otherwise)), (&[], stmts, kind), (&[], vec![], END)])

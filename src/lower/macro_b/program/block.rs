@@ -37,9 +37,12 @@ fn is_unnamed(text: &[u8]) -> bool {
     })
 }
 
+/// Levels of block skips with their places among the items.
+type Placed = SmallVec<[(usize, u8); 2]>;
+
 /// The levels of the block skips before the first item that acts, and those after it with their places.
-pub(super) fn levels(items: &[Item], first: usize) -> (SmallVec<[u8; 2]>, SmallVec<[(usize, u8); 2]>) {
-    let (mut head, mut middle) = (SmallVec::new(), SmallVec::new());
+pub(super) fn levels(items: &[Item], first: usize) -> (SmallVec<[u8; 2]>, Placed) {
+    let (mut head, mut middle) = (SmallVec::new(), Placed::new());
     for (index, item) in items.iter().enumerate() {
         let ItemKind::Skip(level) = item.kind else { continue };
         let level = level.unwrap_or(1).clamp(1, 9);
