@@ -19,6 +19,11 @@ pub(in crate::legalize) fn number_of(name: &ProgramName, context: &Context<'_>) 
     context.target.standing().number_of(*number).filter(|_| both)
 }
 
+/// The names of the library's own programs.
+pub(in crate::legalize) fn known(module: &Module) -> BTreeSet<ProgramName> {
+    module.programs.iter().filter_map(|program| program.name.clone()).collect()
+}
+
 /// The programs of the library that call such a one themselves, and which.
 pub(in crate::legalize) fn callers(module: &Module, context: &Context<'_>) -> BTreeMap<usize, BTreeSet<u32>> {
     let mut found: BTreeMap<usize, BTreeSet<u32>> = BTreeMap::new();

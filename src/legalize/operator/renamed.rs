@@ -113,6 +113,18 @@ fn key(name: &str, prefixes: &[&str]) -> Option<(String, u32, String)> {
     (one.at == (0..name.len())).then_some((one.prefix, one.number, String::new()))
 }
 
+/// Numbers below count something more often than they name a variable.
+const LEAST: u32 = 100;
+
+/// The whole numbers that stand by themselves in a text.
+fn bare_numbers(text: &str) -> impl Iterator<Item = u32> {
+    let apart =
+        |letter: char| letter.is_whitespace() || matches!(letter, '(' | ')' | ',' | ':' | ';' | '=' | '/');
+    text.split(apart)
+        .filter(|word| word.bytes().all(|byte| byte.is_ascii_digit()))
+        .filter_map(|word| word.parse().ok())
+}
+
 /// For each statement, whether a question comes next.
 fn before_questions(stmts: &[Stmt]) -> Vec<bool> {
     let (mut asks, mut all) = (false, Vec::with_capacity(stmts.len()));
@@ -146,8 +158,12 @@ impl Writer<'_, '_> {
     /// `sets` where the operator sets a variable at any stop, `asks` for what stands before a question.
     fn texts(&mut self, kind: &mut StmtKind, sets: bool, asks: bool) {
         match kind {
-            StmtKind::Alarm { text, .. } => drop(self.take_boxed(text, None)),
+            StmtKind::Alarm { text, .. } => {
+                self.bare_numbers(text);
+                drop(self.take_boxed(text, None));
+            }
             StmtKind::StopMessage { text, .. } => {
+                self.bare_numbers(text);
                 // A message that begins with a name asks for it: `#5 DEPTH`.
                 let asked = variable_to_set(text, self.prefixes).map(|name| name.at);
                 let asks = self.asked(text).filter(|_| sets);
@@ -171,6 +187,22 @@ impl Writer<'_, '_> {
                 });
             }
             _ => {}
+        }
+    }
+
+    /// Asks a person to look at a text that may name a variable by its number alone: `SET 560 FIRST`.
+    fn bare_numbers(&mut self, text: &str) {
+        for number in bare_numbers(text).filter(|number| *number >= LEAST) {
+            let found = self.prefixes.iter().find_map(|prefix| {
+                let key = ((*prefix).to_owned(), number, String::new());
+                self.names.get(&key).map(|name| (format!("{prefix}{number}"), name.clone()))
+            });
+            let Some((own, name)) = found else { continue };
+            let what = format!(
+                "the operator reads '{}': if that is {own}, write {name} into the text, which is where the target has it",
+                text.trim()
+            );
+            self.context.add(self.index, Diagnostic::new(Code::Conditional, self.span, what));
         }
     }
 

@@ -9,12 +9,12 @@ use super::names::name_of;
 use super::outside::{Moved, in_words, is_shared, named, read, written_by};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
-use crate::ir::analysis::VarSet;
-use crate::ir::{Expr, Module, Place, StmtKind, Var};
+use crate::ir::analysis::{VarSet, calls_of};
+use crate::ir::{Argument, Callee, Class, Expr, Module, Place, Program, StmtKind, Var};
 use crate::legalize::Context;
 use crate::legalize::calls::standing;
 use crate::syntax::ProgramName;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 const QUESTION: Question = Question::StandingResults;
 
@@ -106,12 +106,21 @@ fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
         Some("same") => return,
         answer => answer == Some("other"),
     };
-    let written = values_of(module);
+    let written: Vec<VarSet> = module.programs.iter().map(values_of).collect();
+    let pairs = context.called(module).pairs(module);
+    let standing = standing::known(module);
     for index in callers.iter().copied() {
         let Some(program) = module.programs.get(index) else { continue };
+        offsets(program, index, (&standing, other), context);
+        // What ends at power-off comes from programs that run with this one; what stays may come from any.
+        let with = standing::tied_to([index], &pairs);
+        let is_written = |var: &Var| {
+            let sets = |at: usize| written.get(at).is_some_and(|written| written.contains(*var));
+            (0..written.len()).any(|at| sets(at) && (var.class != Class::Common || with.contains(&at)))
+        };
         let names: Vec<String> = read(program)
             .iter()
-            .filter(|var| is_shared(var.class) && !written.contains(*var))
+            .filter(|var| is_shared(var.class) && !is_written(var))
             .filter_map(|var| name_of(var, module, context.source))
             .collect();
         if names.is_empty() {
@@ -132,10 +141,44 @@ fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
     }
 }
 
-/// The variables that programs of the library give a value. One that is emptied or set to 0 is made ready for a result.
-fn values_of(module: &Module) -> VarSet {
+/// The local that an argument S sets, by which the makers' probing macros are told a work offset.
+const OFFSET: u32 = 19;
+
+/// Work offsets that both makers number alike: S1 to S6.
+const ALIKE: f64 = 6.0;
+
+/// Asks of calls that name an additional work offset: S101 and up on one control are other numbers on another.
+fn offsets(
+    program: &Program,
+    index: usize,
+    (known, other): (&BTreeSet<ProgramName>, bool),
+    context: &mut Context<'_>,
+) {
+    for block in &program.blocks {
+        for call in calls_of(block) {
+            let outside = matches!(&call.callee, Callee::Program(name) if !known.contains(name) && standing::number_of(name, context).is_some());
+            let named = |argument: &&Argument| {
+                argument.local == OFFSET && argument.value.constant().is_none_or(|number| number > ALIKE)
+            };
+            if !outside || !call.arguments.iter().any(|argument| named(&argument)) {
+                continue;
+            }
+            let span = block.term.site.span;
+            if other {
+                let what = "a program that stands in the machine is told a work offset here (S), and additional ones have other numbers on the \
+                            target: write the target's number into the conversion";
+                context.add(index, Diagnostic::new(Code::Conditional, span, what));
+            } else {
+                context.unconfirmed(index, Side::Target, span, QUESTION.fact(), QUESTION.meaning());
+            }
+        }
+    }
+}
+
+/// The variables that a program gives a value. One that is emptied or set to 0 is made ready for a result.
+fn values_of(program: &Program) -> VarSet {
     let mut all = VarSet::default();
-    for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts) {
+    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
         match (&stmt.kind, stmt.kind.target()) {
             (StmtKind::Assign { value: Expr::Vacant, .. }, _) => {}
             (StmtKind::Assign { value, .. }, _) if value.constant() == Some(0.0) => {}
