@@ -63,6 +63,8 @@ pub enum Predicate {
     Alarms(f64),
     /// Both machines are set to one unit when the program starts.
     Unit,
+    /// The target is set to the unit that this code names, and not to that of its profile, while the program runs.
+    SetTo(Op),
     /// These modes are in force when the program starts, as the profile of the source says.
     Start(Vec<Op>),
     /// Nothing calls the program: it is run by itself.
@@ -73,6 +75,10 @@ pub enum Predicate {
     Holds(Arc<str>, f64),
     /// A setting of the target has this value, in the unit of its control.
     Setting(Arc<str>, f64),
+    /// The same once it is set to another unit than its profile gives ([`Self::SetTo`]), in that unit.
+    TurnedSetting(Arc<str>, f64),
+    /// The speeds that these blocks compute are whole numbers above 0.
+    WholeSpeeds(Vec<Span>),
     /// The arcs of these blocks pass at most half a turn.
     ShortArcs(Vec<Span>),
     /// The arcs of these blocks end as far from their centre as they begin.
@@ -96,6 +102,7 @@ impl Predicate {
             Self::Subscripts(Subscripts { places, .. })
             | Self::Arguments { places, .. }
             | Self::Codes { places, .. }
+            | Self::WholeSpeeds(places)
             | Self::ShortArcs(places)
             | Self::ArcEnds(places)
             | Self::Pecks(places)
@@ -115,11 +122,13 @@ impl Predicate {
             Self::Codes { .. } => "codes",
             Self::Alarms(_) => "alarms",
             Self::Unit => "unit",
+            Self::SetTo(_) => "unit_set",
             Self::Start(_) => "start",
             Self::Main => "main",
             Self::Loaded(_) => "tool",
             Self::Holds(..) => "variable",
-            Self::Setting(..) => "setting",
+            Self::Setting(..) | Self::TurnedSetting(..) => "setting",
+            Self::WholeSpeeds(_) => "speeds",
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
             Self::Pecks(_) => "pecks",
@@ -142,7 +151,8 @@ impl Predicate {
     /// True where runs show whether it holds. Runs take facts, the unit and the tool to be as it says.
     pub fn is_seen(&self) -> bool {
         let set = matches!(self, Self::Fact(_) | Self::Unit | Self::Start(_) | Self::Main | Self::Loaded(_))
-            || matches!(self, Self::Setting(..) | Self::Holds(..));
+            || matches!(self, Self::Setting(..) | Self::TurnedSetting(..) | Self::Holds(..))
+            || matches!(self, Self::SetTo(_));
         !set && !self.is_accepted()
     }
 
@@ -167,16 +177,17 @@ impl Predicate {
             Self::Alarms(most) => vec![*most, most + 1.0],
             Self::Fact(_)
             | Self::Unit
+            | Self::SetTo(_)
             | Self::Start(_)
             | Self::Main
             | Self::Loaded(_)
             | Self::Holds(..)
             | Self::Setting(..)
+            | Self::TurnedSetting(..)
             | Self::Pecks(_)
             | Self::Levels(..) => Vec::new(),
-            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) | Self::Unseen => {
-                Vec::new()
-            }
+            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::WholeSpeeds(_) => Vec::new(),
+            Self::Tools(_) | Self::Substitute(_) | Self::Unseen => Vec::new(),
         }
     }
 }

@@ -57,6 +57,9 @@ pub struct Scenario {
     /// Settings of the control that are another than its profile says, by name: lengths in the unit of the control.
     #[serde(skip)]
     pub settings: BTreeMap<String, f64>,
+    /// The unit that a control is set to which takes a code for the other one for a fault, true for inches; none for that of its profile.
+    #[serde(skip)]
+    pub set_to_inch: Option<bool>,
     /// Seed of what programs that stand in the machine change; 0 if they change nothing.
     #[serde(skip)]
     pub outside: u64,
@@ -163,6 +166,7 @@ impl Default for Scenario {
         Self {
             variables: BTreeMap::new(),
             settings: BTreeMap::new(),
+            set_to_inch: None,
             outside: 0,
             outside_modes: false,
             called: false,

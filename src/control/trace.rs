@@ -96,6 +96,9 @@ pub struct Program {
     pub entry: Entry,
 }
 
+/// The letter by which computed speeds that are no whole numbers above 0 stand among the computed codes.
+pub const ODD_SPEED: char = 's';
+
 /// Something that a run computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Computed<T> {
@@ -273,6 +276,13 @@ impl Trace {
     pub fn zero(&mut self, zero: Zero) {
         if self.zeros.last().is_none_or(|(_, last)| *last != zero) && self.zeros.len() < MOST_ZEROS {
             self.zeros.push((self.count(), zero));
+        }
+    }
+
+    /// Records a speed that was computed and is no whole number above 0.
+    pub fn odd_speed(&mut self, speed: f64) {
+        if speed.fract() != 0.0 || speed <= 0.0 {
+            self.computed_code(ODD_SPEED, speed);
         }
     }
 

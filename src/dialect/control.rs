@@ -7,7 +7,7 @@ use super::{
     BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Question,
     SameCells, Setting, Standing, Statement, Text, VariableClass,
 };
-use crate::canon::{Func, Op, Sys};
+use crate::canon::{Func, Op, Role, Sys};
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -325,6 +325,24 @@ impl Control {
         }
         let name = format!("setting.{CODE_SYSTEM}");
         Some((self.setting(&name)?, self.setting_row(&name)?))
+    }
+
+    /// The control after its operator has set it to the unit that its profile does not give. What lengths its settings hold then no
+    /// source says (a number may stay, or be converted), so none is stated but 0.
+    #[must_use]
+    pub fn in_other_unit(&self) -> Control {
+        let is_length = |row: &Setting| {
+            let role = row.gives.or(row.otherwise);
+            role.is_some_and(Role::is_length)
+        };
+        let mut other = self.clone();
+        for row in self.dialect.settings.iter().filter(|row| is_length(row)) {
+            let zero = other.settings.get(&row.name).is_some_and(|value| value.parse() == Ok(0.0));
+            if !zero {
+                other.settings.remove(&row.name);
+            }
+        }
+        other
     }
 
     /// The row of a setting.

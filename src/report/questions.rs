@@ -265,14 +265,24 @@ fn is_one(one: &Control, other: &Control) -> bool {
 /// tool or its length, the path, which code or variable is meant; then what no run has shown; facts of tables last.
 fn danger(finding: &Diagnostic) -> usize {
     match (finding.assumes.as_deref(), finding.code) {
-        (Some(Predicate::Unit | Predicate::Start(_)), _) => 0,
+        (Some(Predicate::Unit | Predicate::SetTo(_) | Predicate::Start(_)), _) => 0,
         (
-            Some(Predicate::Loaded(_) | Predicate::Holds(..) | Predicate::Tools(_) | Predicate::Setting(..)),
+            Some(
+                Predicate::Loaded(_)
+                | Predicate::Holds(..)
+                | Predicate::Tools(_)
+                | Predicate::Setting(..)
+                | Predicate::TurnedSetting(..),
+            ),
             _,
         ) => 1,
         (
             Some(
-                Predicate::ShortArcs(_) | Predicate::ArcEnds(_) | Predicate::Pecks(_) | Predicate::Levels(..),
+                Predicate::ShortArcs(_)
+                | Predicate::ArcEnds(_)
+                | Predicate::Pecks(_)
+                | Predicate::Levels(..)
+                | Predicate::WholeSpeeds(_),
             ),
             _,
         ) => 2,

@@ -14,22 +14,23 @@ use super::cycle_values::{Given, Untold, Values, Written, replace, resolve, told
 use super::place::Place;
 use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
 use super::setting_values::{Found, Instead, So, tell};
-use super::settings::{Kind, block_before, setting, share, stands_in, takes};
+use super::settings::{KINDS, Kind, block_before, setting, share, stands_in, takes};
 use super::straight::entered_straight;
 use super::thread_loops::{self, Made};
 use super::thread_passes::says_how;
 use super::threads::{beyond, flanks_are_open};
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{Control, Units};
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::Summaries;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::moves::turned_units::{Turned, may_be_other};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use starts::{Starts, vacant};
 use written::runs_out;
 
-/// True if there are such cycles, and the target does not take the values from where the source does, or from a setting that is another.
+/// True if there are such cycles, and the target takes the values from elsewhere than the source, or from a setting that is another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let rough = features.role(Role::RoughX) || features.role(Role::RoughZ);
     let apart = |kind: &Kind, role: Role| {
@@ -50,7 +51,11 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
                     || stands_in(context.source, features, kind.cycle, *role)
             })
     };
-    rough || super::settings::KINDS.iter().any(differs)
+    // What settings hold once the unit is turned is not what the profiles say.
+    let is_turned = context.target.is(Question::UnitsAgree)
+        && Turned::of(context.target).is_some_and(|turned| features.op(turned.op));
+    let cuts = || KINDS.iter().any(|kind| features.op(kind.cycle));
+    rough || KINDS.iter().any(differs) || is_turned && cuts()
 }
 
 /// Gives each cycle its values in the target's form, and writes out the threads and grooves for which it has none; gives the
@@ -63,13 +68,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let written = Written::of(module, context.source);
     let summaries = context.summaries(module);
     let calls = if with.is_empty() { Vec::new() } else { context.called(module).pairs(module) };
+    let others = [context.source, context.target].map(|control| may_be_other(module, &calls, control));
+    let is_turned = others[1].contains(&true) && context.target.is(Question::UnitsAgree);
+    let turned = is_turned.then(|| context.target.in_other_unit());
     let mut all = Vec::new();
     for index in &with {
+        let [source, target] = &others;
+        let there = turned.as_ref().filter(|_| target[*index]);
+        let units = ([source[*index], target[*index] && there.is_none()], there);
         let program = &mut module.programs[*index];
         // Who calls one that returns, the library may not know; others begin after a reset or an end (docs/lathe.md Q1).
         let facts = if returns(program) { &called } else { &main };
         let states = program.ids().map(|id| facts.at(*index, id)).collect();
-        let found = each(program, states, (*index, &written, &summaries), context);
+        let found = each(program, states, (*index, &written, &summaries), units, context);
         all.push((*index, found));
     }
     tell(all, &calls, module, context);
@@ -80,6 +91,7 @@ fn each(
     program: &mut Program,
     states: Vec<Modal>,
     (index, written, summaries): (usize, &Written, &Summaries),
+    (other_unit, turned): ([bool; 2], Option<&Control>),
     context: &mut Context<'_>,
 ) -> Found {
     let mut found = Found::new();
@@ -87,13 +99,14 @@ fn each(
     let straight = entered_straight(program);
     let loops = [Op::Threading, Op::Groove, Op::FaceGroove].iter().any(|op| context.features.op(*op));
     let vacant = if loops { vacant(program, summaries) } else { Vec::new() };
-    let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
     let mut run = Run {
         source: context.source,
-        target: context.target,
+        target: turned.unwrap_or(context.target),
+        profile: context.target,
         features: &context.features,
         written,
         other_unit,
+        turned: turned.and_then(Turned::of),
         modal: context.features.has(Feature::Modal),
         in_steps: context.features.op(Op::Incremental),
         compensates: [Op::RadiusLeft, Op::RadiusRight].iter().any(|op| context.features.op(*op)),
@@ -165,8 +178,12 @@ struct Run<'c> {
     features: &'c Features,
     /// What the blocks of the library set.
     written: &'c Written,
-    /// True where the program may run in another unit than the one that the settings are in.
-    other_unit: bool,
+    /// The target as its profile has it; `target` is as it is while the program runs.
+    profile: &'c Control,
+    /// True where the program may run in another unit than the one that the settings of the source, and of the target, are in.
+    other_unit: [bool; 2],
+    /// Where the target's operator sets it to that unit: both.
+    turned: Option<Turned>,
     /// True where a macro may run after each move, and leave the tool elsewhere.
     modal: bool,
     /// True where words of a place may be increments, by a mode.
@@ -269,17 +286,6 @@ impl Run<'_> {
         (!empty).then_some(stmt)
     }
 
-    /// True where a length of the cycle comes from a setting, or is to be in one.
-    fn rests_on_length(&self, kind: &Kind, setup: &Values) -> bool {
-        let written = |role: &Role| setup.iter().any(|(found, _)| found == role);
-        kind.roles.iter().any(|role| {
-            let there = setting(self.source, kind.cycle, *role).is_some()
-                || stands_in(self.source, self.features, kind.cycle, *role);
-            let here = setting(self.target, kind.cycle, *role).is_some() && !written(role);
-            role.is_length() && (there || here)
-        })
-    }
-
     /// The cycle with its words, after the block that sets the rest, if the target has one, and before the passes that the target's cycle
     /// does not make; or all passes of a thread that the target has no cycle for.
     fn cycle(
@@ -316,7 +322,7 @@ impl Run<'_> {
         let needs = needs.unwrap_or_default();
         let elsewhere: Vec<Instead> = needs.iter().filter_map(|need| self.set_otherwise(need)).collect();
         let mut why = String::new();
-        let may_write = if stood_in && self.other_unit { Err(OTHER_UNIT) } else { may };
+        let may_write = if stood_in && self.other_unit.contains(&true) { Err(OTHER_UNIT) } else { may };
         let finishing = given.as_ref().ok().map(|given| self.finishing(&stmt, given, &all, may));
         // A thread whose finishing passes cannot follow its cycle may be a loop of all its passes.
         let beyond = finishing.as_ref().map_or(writes, |passes| passes.is_none() && may_write.is_ok());
@@ -337,18 +343,17 @@ impl Run<'_> {
                 return vec![stmt];
             }
         };
-        if self.other_unit && (stood_in || self.rests_on_length(kind, &setup)) {
+        if self.other_unit.contains(&true) && stood_in || self.rests_on_length(kind, &setup) {
             self.refuse(
                 span,
                 OTHER_UNIT,
                 "write the program in the unit that the profile of the machine gives",
             );
         }
-        self.found.extend(
-            needs
-                .into_iter()
-                .map(|(what, help, needs)| (span, what, format!("{help}{why}"), So::Supposed(needs))),
-        );
+        for need in needs {
+            let (what, help, so) = self.supposed(need, &why);
+            self.found.push((span, what, help, so));
+        }
         let passes = finishing.flatten();
         if passes.is_none() {
             let (what, help) =
@@ -371,17 +376,6 @@ impl Run<'_> {
     fn refuse(&mut self, span: Span, what: &str, help: &str) {
         self.found.push((span, what.into(), help.into(), So::Refused));
     }
-}
-
-/// True of a program that names another unit than the machine's profile gives, in which lengths of settings are.
-fn names_other_unit(program: &Program, control: &Control) -> bool {
-    let other = match control.units() {
-        Some(Units::Metric) => Op::Inch,
-        Some(Units::Inch) => Op::Metric,
-        None => return false,
-    };
-    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(other)))
 }
 
 const RUNS_OUT: &str = "the target finishes a thread in one pass, and this one has more and runs out: the others are not written as single passes, as \

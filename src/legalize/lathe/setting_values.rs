@@ -55,7 +55,10 @@ pub(super) fn tell(
                 // Another cycle of the program may need what the profile says.
                 (what, help) = another_way_back((name, *value), &stated, "the profile says");
                 so = So::Open;
-            } else if let So::Supposed(Predicate::Setting(name, value)) = &so {
+            } else if let So::Supposed(
+                Predicate::Setting(name, value) | Predicate::TurnedSetting(name, value),
+            ) = &so
+            {
                 let known = values.entry(name.clone()).or_default();
                 let other = |(first, _): &&(f64, usize)| first.to_bits() != value.to_bits();
                 // A value that this program itself needs otherwise counts before one of another.

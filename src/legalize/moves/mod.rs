@@ -32,6 +32,7 @@ pub(in crate::legalize) mod shift;
 pub(in crate::legalize) mod short_arcs;
 pub(in crate::legalize) mod start;
 pub(in crate::legalize) mod turn_cuts;
+pub(in crate::legalize) mod turned_units;
 pub(in crate::legalize) mod under_increments;
 pub(in crate::legalize) mod unit_agrees;
 pub(in crate::legalize) mod unit_checks;

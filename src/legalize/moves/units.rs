@@ -59,7 +59,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts =
         if known { context.modal_facts_from(module, &entry) } else { Arc::new(ModalFacts::unknown()) };
     let called = context.called(module);
-    let open = open(module, &facts, &called);
+    let open = open(module, &facts, &called, true);
     let mut heads = mains(module, &called);
     if let Some(units) = ours.filter(|units| theirs.is_some_and(|theirs| theirs != *units)) {
         heads.extend(lone(module, units, &called));
@@ -190,8 +190,8 @@ fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'sta
     None
 }
 
-/// Which programs come to a length while no unit is named, themselves or in what they call then.
-fn open(module: &Module, facts: &ModalFacts, called: &CalledPrograms) -> Vec<bool> {
+/// Which programs come to a length while no unit is named, themselves or in what they call then; to one that is not 0, unless `zeros` count.
+pub(super) fn open(module: &Module, facts: &ModalFacts, called: &CalledPrograms, zeros: bool) -> Vec<bool> {
     let mut open = vec![false; module.programs.len()];
     let mut calls: Vec<BTreeSet<(usize, bool)>> = vec![BTreeSet::new(); open.len()];
     for (index, program) in module.programs.iter().enumerate() {
@@ -206,7 +206,7 @@ fn open(module: &Module, facts: &ModalFacts, called: &CalledPrograms) -> Vec<boo
                 let before = state.op(Group::Units);
                 state.step(stmt);
                 if before.or(state.op(Group::Units)).is_none() {
-                    open[index] |= has_length(&stmt.kind);
+                    open[index] |= has_length(&stmt.kind, zeros);
                     if let StmtKind::ModalCall(call) = &stmt.kind {
                         enter(called.by((index, id), call));
                     }
@@ -239,11 +239,14 @@ fn with_subroutines(program: &Program) -> BTreeSet<BlockId> {
     all
 }
 
-/// True for a statement in which the unit counts.
-fn has_length(kind: &StmtKind) -> bool {
+/// True for a statement in which the unit counts; one whose lengths are 0 is one if `zeros` count.
+fn has_length(kind: &StmtKind, zeros: bool) -> bool {
     match kind {
         StmtKind::Nc(nc)
-            if nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if in_unit(*role))) =>
+            if nc.items.iter().any(|item| match item {
+                NcItem::Word(role, value) => in_unit(*role) && (zeros || value.constant() != Some(0.0)),
+                _ => false,
+            }) =>
         {
             true
         }

@@ -2,8 +2,8 @@
 
 use super::settled::Settled;
 use super::verifier::Verifier;
-use crate::assume::Predicate;
-use crate::canon::{Role, Sys};
+use crate::assume::{Assumption, Predicate};
+use crate::canon::{Op, Role, Sys};
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::dialect::{Axis, Machine};
 use crate::verify::certificate::Why;
@@ -57,7 +57,7 @@ impl Verifier<'_, '_> {
             _ => None,
         });
         let held = self.held();
-        let settings = self.settings();
+        let (settings, set_to_inch) = (self.settings(), self.set_to_inch());
         let as_stated = self.job.as_stated(self.program);
         let is_input = |(state, _): &(Sys, Vec<u32>)| matches!(state, Sys::Input | Sys::InputInverted);
         let reads_inputs = found.cells.keys().any(is_input);
@@ -79,6 +79,7 @@ impl Verifier<'_, '_> {
             scenario.variables.extend(held.clone());
             scenario.as_stated = as_stated.clone();
             scenario.settings.clone_from(&settings);
+            scenario.set_to_inch = set_to_inch;
             self.theirs = proposals.theirs().clone();
             if is_long {
                 scenario.steps /= SHORTER;
@@ -208,16 +209,28 @@ impl Verifier<'_, '_> {
 
     /// What the target's settings are supposed to be: while this program runs, and so what it calls.
     fn settings(&self) -> BTreeMap<String, f64> {
-        let called = self.job.source.links().called_from(self.program, |_| true);
-        let programs = std::iter::once(&self.program).chain(&called);
-        let assumed = programs.filter_map(|program| self.job.assumptions.get(program)).flatten();
         let mut settings = BTreeMap::new();
-        for one in assumed {
-            if let Predicate::Setting(name, value) = &one.predicate {
+        for one in self.assumed_below() {
+            if let Predicate::Setting(name, value) | Predicate::TurnedSetting(name, value) = &one.predicate {
                 settings.entry(name.to_string()).or_insert(*value);
             }
         }
         settings
+    }
+
+    /// The unit that the target is supposed to be set to, where that is not the one of its profile: true for inches.
+    fn set_to_inch(&self) -> Option<bool> {
+        self.assumed_below().into_iter().find_map(|one| match one.predicate {
+            Predicate::SetTo(unit) => Some(unit == Op::Inch),
+            _ => None,
+        })
+    }
+
+    /// What is assumed of this program, and of all that it calls.
+    fn assumed_below(&self) -> Vec<&Assumption> {
+        let called = self.job.source.links().called_from(self.program, |_| true);
+        let programs = std::iter::once(&self.program).chain(&called);
+        programs.filter_map(|program| self.job.assumptions.get(program)).flatten().collect()
     }
 
     /// A scenario in which the source came to no end, once more with inputs that change while it waits for them: given

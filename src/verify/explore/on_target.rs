@@ -37,7 +37,7 @@ pub fn on_target(
 ) -> Scenario {
     let mut out = scenario.clone();
     out.sets_named = lacks_messages(target.control) && !lacks_messages(source.control);
-    out.inch = set_by_hand(target, run).or(unit(target, source)).or(scenario.inch);
+    out.inch = scenario.set_to_inch.or(set_by_hand(target, run)).or(unit(target, source)).or(scenario.inch);
     out.variables.clear();
     for (name, value) in &scenario.variables {
         let nullable = class_of(source.control, name).is_some_and(|class| class.nullable);

@@ -7,7 +7,7 @@
 use super::computed::{beside, computed, judged, numbers};
 use crate::assume::{Assumption, Predicate};
 use crate::canon::Op;
-use crate::control::trace::{Event, EventKind};
+use crate::control::trace::{Event, EventKind, ODD_SPEED};
 use crate::control::{End, ProgramRef, Run};
 use crate::text::Span;
 use crate::verify::compare::Difference;
@@ -126,11 +126,13 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         // The emulated controls go by the tables, and both sides are set to one unit and found with the tool.
         Predicate::Fact(_)
         | Predicate::Unit
+        | Predicate::SetTo(_)
         | Predicate::Start(_)
         | Predicate::Main
         | Predicate::Loaded(_)
         | Predicate::Holds(..)
-        | Predicate::Setting(..) => Held::Kept,
+        | Predicate::Setting(..)
+        | Predicate::TurnedSetting(..) => Held::Kept,
         // Those of one block are looked at together.
         Predicate::Substitute(_) | Predicate::Unseen | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, places, domain } => {
@@ -144,6 +146,14 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         }
         Predicate::Nesting { counts, most, .. } => nesting(run, *counts, *most),
         Predicate::Alarms(most) => alarm(run, of, *most),
+        Predicate::WholeSpeeds(places) => {
+            let odd =
+                computed(&run.computed_codes, of, run, Some(places)).filter(|one| one.what.0 == ODD_SPEED);
+            match judged(odd, |_| false, |(_, speed)| format!("turns at {speed}")) {
+                Held::Untried => Held::Kept,
+                held => held,
+            }
+        }
         Predicate::ShortArcs(places) => arcs(run, of, places, |sweep, _| {
             (sweep.abs() > 180.0 + 1e-6).then(|| format!("passes an arc of {:.0} degrees", sweep.abs()))
         }),
@@ -163,12 +173,15 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
     match predicate {
         Predicate::Fact(_)
         | Predicate::Unit
+        | Predicate::SetTo(_)
         | Predicate::Start(_)
         | Predicate::Main
         | Predicate::Loaded(_)
         | Predicate::Holds(..)
         | Predicate::Setting(..)
+        | Predicate::TurnedSetting(..)
         | Predicate::ShortArcs(_)
+        | Predicate::WholeSpeeds(_)
         | Predicate::ArcEnds(_)
         | Predicate::Pecks(_)
         | Predicate::Levels(..)

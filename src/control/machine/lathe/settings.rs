@@ -66,12 +66,19 @@ fn axes(control: &Control) -> Vec<usize> {
 impl Turning {
     /// Those of a control.
     pub fn new(control: &Control) -> Self {
-        Self::with(control, &BTreeMap::new())
+        Self::with(control, &BTreeMap::new(), None)
     }
 
-    /// The same with some settings that are another than the profile says.
-    pub fn with(control: &Control, others: &BTreeMap<String, f64>) -> Self {
-        let unit = if control.units() == Some(Units::Inch) { INCH } else { 1.0 };
+    /// The same with some settings that are another than the profile says, and set to another unit where one is given (true for
+    /// inches). What a length is then that only the profile gives, no source says: a number may stay, or be converted.
+    pub fn with(control: &Control, others: &BTreeMap<String, f64>, set_to_inch: Option<bool>) -> Self {
+        let answer = |question| control.behaviour(question).map(|row| row.value.as_str());
+        let agrees = answer(Question::UnitsAgree) == Some("true");
+        let profile = control.units().map(|units| units == Units::Inch);
+        let set_to_inch = set_to_inch.filter(|_| agrees);
+        let turned = profile.is_some() && set_to_inch.is_some_and(|inch| profile != Some(inch));
+        let inch = set_to_inch.or(profile).unwrap_or(false);
+        let unit = if inch { INCH } else { 1.0 };
         let stated = |name: &str| control.setting(name).and_then(|value| value.parse::<f64>().ok());
         let number = |name: &str| others.get(name).copied().or_else(|| stated(name));
         let told = |name: &str| control.told(name).and_then(|(row, _)| number(&row.name));
@@ -80,11 +87,14 @@ impl Turning {
             let gives = |row: &&Setting| row.gives == Some(role) || row.otherwise == Some(role);
             let rows = control.dialect().settings.iter().filter(gives);
             let mut rows = rows.filter(|row| row.cycles.iter().any(|op| cycles.contains(op)));
-            rows.find_map(|row| number(&row.name).map(|value| value / row.whole()))
+            let of = |row: &Setting| {
+                let own = stated(&row.name).filter(|value| !(turned && role.is_length() && *value != 0.0));
+                others.get(&row.name).copied().or(own)
+            };
+            rows.find_map(|row| of(row).map(|value| value / row.whole()))
         };
         let length = |role: Role, cycles: &[Op]| given(role, cycles).map(|value| value * unit);
         let (rough, pecks) = ([Op::RoughTurning, Op::RoughFacing], [Op::Groove, Op::FaceGroove]);
-        let answer = |question| control.behaviour(question).map(|row| row.value.as_str());
         let stand_in = |row: &Setting| row.otherwise == Some(Role::ThreadLeast);
         Self {
             two_blocks: control.dialect().settings.iter().any(stand_in),
@@ -96,10 +106,7 @@ impl Turning {
             machine_rapid: answer(Question::MachineMoveRapid) != Some("false"),
             radius_not_negative: (control.dialect().forbidden.iter())
                 .any(|row| row.negative && row.words.contains(&Role::ArcRadius)),
-            inch_set: control
-                .units()
-                .filter(|_| answer(Question::UnitsAgree) == Some("true"))
-                .map(|units| units == Units::Inch),
+            inch_set: set_to_inch.or(profile).filter(|_| agrees),
             c_by_return: answer(Question::CAxisEngages) == Some("return"),
             radii: answer(Question::XCounts) == Some("radius"),
             letters: answer(Question::CornerLetters) == Some("letters"),

@@ -1,10 +1,10 @@
 //! Cycles whose moves are written out, because the target has none that makes them.
 
-use super::super::cycle_values::{Given, Need, Values};
+use super::super::cycle_values::{Given, Need, Values, setting_named};
 use super::super::groove_loops::Groove;
 use super::super::groove_passes;
 use super::super::setting_values::{Instead, So, written};
-use super::super::settings::{Kind, setting};
+use super::super::settings::{Kind, setting, stands_in};
 use super::super::thread_loops::{Loop, Made};
 use super::super::thread_passes::{UNKNOWN, all, finishes, runs_out as single_passes};
 use super::{OTHER_UNIT, Run};
@@ -20,12 +20,50 @@ impl Run<'_> {
     pub(super) fn set_otherwise(&self, (.., needs): &Need) -> Option<Instead> {
         let Predicate::Setting(name, value) = needs else { return None };
         let before = |(.., so): &(Span, String, String, So)| match so {
-            So::Supposed(Predicate::Setting(other, before)) => other == name && before != value,
+            So::Supposed(Predicate::Setting(other, before) | Predicate::TurnedSetting(other, before)) => {
+                other == name && before != value
+            }
             _ => false,
         };
-        let stated = self.target.setting(name);
+        let stated = self.profile.setting(name);
+        let there = match (stated, self.turned) {
+            (Some(stated), Some(turned)) => Some(format!("{stated}, and is in {}", turned.profile)),
+            (stated, _) => stated.map(str::to_owned),
+        };
         (stated.is_some() || self.found.iter().any(before))
-            .then(|| written((name, *value), stated, &self.target.dialect().title))
+            .then(|| written((name, *value), there.as_deref(), &self.target.dialect().title))
+    }
+
+    /// True where a length of the cycle comes from a setting that is in another unit, or is to be in one.
+    pub(super) fn rests_on_length(&self, kind: &Kind, setup: &Values) -> bool {
+        let [source, target] = self.other_unit;
+        let written = |role: &Role| setup.iter().any(|(found, _)| found == role);
+        kind.roles.iter().any(|role| {
+            let there = setting(self.source, kind.cycle, *role).is_some()
+                || stands_in(self.source, self.features, kind.cycle, *role);
+            let here = setting(self.target, kind.cycle, *role).is_some() && !written(role);
+            role.is_length() && ((source || target) && there || target && here)
+        })
+    }
+
+    /// What the target must be set to; once its unit is turned, a number of its profile says nothing of a length.
+    pub(super) fn supposed(&self, (what, help, needs): Need, why: &str) -> (String, String, So) {
+        let Some((turned, Predicate::Setting(name, value))) = self.turned.zip(Some(&needs)) else {
+            return (what, format!("{help}{why}"), So::Supposed(needs));
+        };
+        let is_length = self.target.setting_row(name).and_then(|row| row.gives.or(row.otherwise));
+        if !is_length.is_some_and(Role::is_length) {
+            return (what, format!("{help}{why}"), So::Supposed(needs));
+        }
+        let (kind, number) = setting_named(name);
+        let title = &self.target.dialect().title;
+        let what = format!(
+            "{kind} {number} of the {title} must be {value} while this program runs, in {}: no source says what becomes of its number when the unit of \
+             the machine is changed",
+            turned.program
+        );
+        let help = format!("set the unit first, and look at {kind} {number} then{why}");
+        (what, help, So::Supposed(Predicate::TurnedSetting(name.clone(), *value)))
     }
 
     /// The moves of a thread or a groove, in place of its cycle, or the cycle itself where a loop takes its place later; why there
@@ -40,7 +78,7 @@ impl Run<'_> {
             return Err("words of a place may be increments");
         }
         let by_setting = |role: &Role| role.is_length() && setting(self.source, kind.cycle, *role).is_some();
-        if self.other_unit && kind.roles.iter().any(by_setting) {
+        if self.other_unit.contains(&true) && kind.roles.iter().any(by_setting) {
             return Err(OTHER_UNIT);
         }
         let flanks = self.source.behaviour(Question::ThreadFlanks).map(|row| row.value.as_str());
