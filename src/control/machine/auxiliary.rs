@@ -177,10 +177,12 @@ pub(super) fn is_own(op: Op) -> bool {
     matches!(op, Op::Builder | Op::MachineSpecific)
 }
 
-/// True where the code for rigid taps of a lathe says the speed again that is in force while the spindle stands (Q12).
+/// True where the code for rigid taps of a lathe, or S alone between taps that turn their tool by themselves, says the speed again that is
+/// in force while the spindle stands (Q11, Q12).
 fn readies(machine: &Machine, command: &Command) -> bool {
     let same = command.word(Role::Speed) == Some(machine.speed) && !machine.surface_speed;
-    command.has(Op::RigidTaps) && machine.rules.lathe && same && machine.spindle == Spindle::Stopped
+    let between = command.has(Op::RigidTaps) || machine.lathe.has_tapped;
+    between && machine.rules.lathe && same && machine.spindle == Spindle::Stopped
 }
 
 /// Turns the spindle, at the speed of the block where it has one.

@@ -49,6 +49,9 @@ impl<'c> Runner<'c> {
             if values[at].is_none() {
                 self.rules.vacant_word_dropped.ask(&mut self.session.trace);
                 there[at] = false;
+                if known.is_some_and(|(role, _)| role == Role::Speed) {
+                    self.session.trace.odd_speed(0.0);
+                }
             }
         }
         // A word that is dropped may have picked the meaning of a code, and so may a computed one.

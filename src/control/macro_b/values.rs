@@ -166,6 +166,9 @@ impl<'c> Runner<'c> {
     }
 
     fn computed(&mut self, value: f64, role: Option<Role>, increment: Option<f64>) -> f64 {
+        if role == Some(Role::Speed) {
+            self.session.trace.odd_speed(value);
+        }
         match role {
             Some(Role::DwellMs | Role::CycleDwell) => {
                 match self.rules.dwell_expression.ask(&mut self.session.trace) {

@@ -37,6 +37,7 @@ pub mod settings;
 pub mod steps;
 pub mod straight;
 pub mod tap_feeds;
+mod tap_products;
 pub mod thread_form;
 mod thread_loops;
 pub mod thread_passes;

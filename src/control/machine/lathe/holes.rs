@@ -172,6 +172,7 @@ fn hole(
     if live || stood {
         // The spindle that turns the part is where it was; one that a tap has turned by itself stands again.
         machine.spindle = main;
+        machine.lathe.has_tapped = true;
     }
     Ok(())
 }

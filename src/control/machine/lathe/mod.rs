@@ -108,6 +108,8 @@ pub(super) struct Lathe {
     pub last_dwell: Option<f64>,
     /// True where threads an inch said the feed last.
     pub per_inch: bool,
+    /// True once a tap has turned a spindle that stood, or a live tool, and left the spindle as it was.
+    pub has_tapped: bool,
     /// True after a cycle, until a code of motion stands in a block.
     pub after_cycle: bool,
     /// The face or the side that is milled while C follows.

@@ -224,12 +224,15 @@ fn live_tap(hole: &mut Hole<'_>) -> Result<Op, Refused> {
     if !hole.turning.by_turn {
         return Err((BY_MINUTE, BY_MINUTE_HELP));
     }
-    if hole.turning.speed.is_none() {
+    if !hole.turning.is_said {
         return Err((NO_SPEED, NO_SPEED_HELP));
     }
     if hole.cycle.written != Some(op) {
         if !hole.turning.stands {
-            return Err((TURNS, TURNS_HELP));
+            if !hole.all.is_stopped {
+                return Err((TURNS, TURNS_HELP));
+            }
+            hole.asked.push((STOPPED, STOPPED_HELP, op, true));
         }
         hole.asked.push((LIVE, LIVE_HELP, op, false));
     }
@@ -268,6 +271,8 @@ const NO_SPEED_HELP: &str =
 const TURNS: &str = "the spindle may turn here (M3, M4), which on the target is the one that turns the part, while a live tool taps";
 const TURNS_HELP: &str =
     "write M5 before the tap, and turn the live tool by the code of the builder that does only that";
+const STOPPED: &str = "all programs of the library that call this one stop the spindle before (M5), and the target's tap of a live tool needs that";
+const STOPPED_HELP: &str = "if something else calls it, make sure that the spindle stands there too";
 const LIVE: &str = "this tap becomes the target's cycle for a live tool, which turns the tool to the right by itself, at the last S";
 const LIVE_HELP: &str = "make sure that the thread is a right-hand one, and that S is the speed of the tool";
 const MAIN: &str = "the target taps on the centre line with its main spindle, which it starts itself";

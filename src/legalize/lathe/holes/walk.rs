@@ -1,6 +1,6 @@
 //! The walk through the drilling blocks of a program.
 
-use super::all::{All, all};
+use super::all::{All, all, stopped};
 use super::levels::Levels;
 use super::rigid::drop_rigid;
 use super::waits::{Waits, other_waits};
@@ -30,6 +30,8 @@ pub(super) type Asked = (&'static str, &'static str, Op, bool);
 pub(super) struct Turning {
     /// The last speed, if that is a known number.
     pub speed: Option<f64>,
+    /// True where a block before gives the speed, as a number or as what a variable holds.
+    pub is_said: bool,
     /// True where F is a feed a turn.
     pub by_turn: bool,
     /// True where the spindle is known to stand, or nothing of the library ever turns it.
@@ -136,7 +138,7 @@ impl Hole<'_> {
 }
 
 pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool) {
-    let facts = context.modal_facts(module);
+    let (facts, stopped) = (context.modal_facts(module), stopped(module, context));
     let other_waits = other_waits(&context.features, by_steps);
     let turns = |op| context.features.op(op);
     let waits = Waits::of(context.source, module);
@@ -147,7 +149,8 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
         let all = all(program, &states);
-        let all = All { other_waits: other_waits || all.other_waits, stands, ..all };
+        let all =
+            All { other_waits: other_waits || all.other_waits, stands, is_stopped: stopped[index], ..all };
         let straight = entered_straight(program);
         let begin = Place::keeping_level();
         let places = at_blocks(program, begin, entered);
@@ -157,6 +160,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             place: begin,
             levels: Levels::default(),
             speed: None,
+            is_said: false,
             stands: false,
             waits: waits.clone(),
             is_ended: false,
@@ -171,6 +175,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 walk.cycle = Cycle::default();
                 walk.place = places.get(at).copied().unwrap_or(begin);
                 walk.speed = None;
+                walk.is_said = false;
                 walk.stands = false;
                 walk.waits.come_in(told.get(at).copied().unwrap_or_default());
             }
@@ -230,6 +235,8 @@ struct Walk {
     levels: Levels,
     /// The last speed.
     speed: Option<f64>,
+    /// True where a block gave the last speed.
+    is_said: bool,
     /// True where the spindle that turns the part was stopped, and taps of live tools alone came since.
     stands: bool,
     waits: Waits,
@@ -285,12 +292,15 @@ impl Walk {
                 let calls = matches!(kind, StmtKind::ModalCall(_)) && self.takes_wait(before, all);
                 self.cycle = Cycle::default();
                 self.speed = None;
+                self.is_said = false;
                 self.stands = false;
                 return calls.then_some(Err((CALLS, CALLS_HELP)));
             }
         };
         if let Some(speed) = nc.word(Role::Speed) {
             self.speed = speed.constant().filter(|_| stmt.site.skip.is_none());
+            let none = speed.constant().is_some_and(|speed| speed <= 0.0);
+            self.is_said = stmt.site.skip.is_none() && !none;
         }
         if nc.has(Op::Dwell) && self.takes_wait(before, all) {
             return Some(Err((WAITS, "end the cycle before the wait, and write it again after it")));
@@ -310,6 +320,7 @@ impl Walk {
         let surface = state.op(Group::SpeedMode) == Some(Op::SurfaceSpeed);
         let turning = Turning {
             speed: self.speed.filter(|speed| *speed > 0.0 && !surface),
+            is_said: self.is_said && !surface,
             by_turn: state.op(Group::FeedMode) == Some(Op::FeedPerTurn),
             stands: all.stands || stands,
         };
