@@ -12,7 +12,7 @@ impl Runner<'_> {
     /// Cuts the contour that a cycle names, and says where the run goes on.
     pub fn contour(&mut self, op: Op, command: &Command) -> Result<Next, Halt> {
         let Some(at) = self.frames.last().map(|frame| frame.at) else { return Ok(Next::On) };
-        let (first, last) = self.contour_blocks(command)?;
+        let (first, last) = self.contour_blocks(command, at)?;
         if first <= at && at <= last {
             return Err(self.lathe_stop(Stop::unnamed("a cycle between the blocks of its own contour")));
         }
@@ -38,8 +38,9 @@ impl Runner<'_> {
         Halt::Alarm(stop)
     }
 
-    /// The first and the last block: the numbers are looked for from the start of the program (R3).
-    fn contour_blocks(&self, command: &Command) -> Result<(usize, usize), Halt> {
+    /// The first and the last block for a cycle at a block: the numbers are looked for from the start of the program (R3). One that stands
+    /// more than once is the first, if a search from the cycle on finds that too.
+    fn contour_blocks(&self, command: &Command, at: usize) -> Result<(usize, usize), Halt> {
         let alarm = |number: &str, text: String| self.lathe_stop(Stop::alarm(number, text));
         let place = |role: Role| {
             let number = command.number(role);
@@ -47,7 +48,12 @@ impl Runner<'_> {
             let labels = self.frames.last().and_then(|frame| frame.program.code.labels.get(&number));
             match labels.map(Vec::as_slice) {
                 Some([one]) => Ok(*one),
-                Some([_, _, ..]) => {
+                Some(all @ [first, ..])
+                    if all.iter().find(|one| **one > at).is_none_or(|one| one == first) =>
+                {
+                    Ok(*first)
+                }
+                Some([_, ..]) => {
                     let text = format!("N{number} stands in the program more than once");
                     Err(self.lathe_stop(Stop::unnamed(text)))
                 }

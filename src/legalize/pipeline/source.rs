@@ -8,7 +8,7 @@ use crate::legalize::cycles::{
     cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, stored_places,
 };
 use crate::legalize::features::Feature;
-use crate::legalize::lathe::other_kind;
+use crate::legalize::lathe::{contour_numbers, other_kind};
 use crate::legalize::layout::skip_runs;
 use crate::legalize::moves::{bare_feeds, first_increments};
 use crate::legalize::offsets::{arc_starts, missing_length};
@@ -16,6 +16,12 @@ use crate::legalize::variables::last_words;
 
 /// Before what is read is folded away.
 pub(super) const READ: &[Pass] = &[
+    Pass::rewrites(
+        "contour-numbers",
+        "numbers that cycles find in their first block stand there alone",
+        contour_numbers::run,
+    )
+    .when(|c, _| contour_numbers::concerns(c)),
     Pass::each(
         "skip-runs",
         "blocks with a block skip that follow each other become one way round them",
