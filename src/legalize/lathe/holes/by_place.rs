@@ -73,6 +73,12 @@ fn plane(hole: &mut Hole<'_>) -> Result<Plane, Refused> {
             hole.cycle.plane = None;
             from(Expr::System(Sys::EndPosition, [Expr::Number(3.0)].into()), step)
         }
+        (None, _) if hole.fresh && !hole.place.is_shifted() => {
+            let level = hole.computed.take().ok_or((LEVEL, LEVEL_HELP))?;
+            hole.cycle.plane = None;
+            hole.asked.push((COMPUTED, COMPUTED_HELP, hole.op, true));
+            from(level, step)
+        }
         _ => return Err((LEVEL, LEVEL_HELP)),
     };
     hole.put(Role::CycleRStep, Role::CycleR, value.clone());
@@ -122,6 +128,8 @@ fn code(hole: &mut Hole<'_>) -> Result<(), Refused> {
     let peck = hole.nc.word(Role::CycleQ).filter(|peck| peck.constant() != Some(0.0)).is_some();
     if !peck {
         hole.drop(Role::CycleQ);
+    } else if hole.nc.word(Role::CycleQ).is_some_and(|peck| peck.constant().is_none()) {
+        hole.asked.push((PECKS, PECKS_HELP, hole.op, true));
     }
     let told = hole.nc.word(Role::CycleDwell).cloned();
     if hole.fresh {
@@ -251,6 +259,11 @@ fn times(hole: &mut Hole<'_>) -> Result<usize, Refused> {
 
 const LEVEL: &str = "the retract plane counts from where the cycle begins, which is not known here, and the target takes it as a place";
 const LEVEL_HELP: &str = "write the place of the tool as numbers (G0 X.. Z..) in a block before the cycle";
+pub(super) const COMPUTED: &str = "the retract plane of this hole is computed, from where the blocks before say that its cycle begins: the target ends the hole \
+                                   at the plane, if it begins below it";
+const COMPUTED_HELP: &str = "make sure that the cycle begins at its retract plane or beyond it";
+pub(super) const PECKS: &str = "the depth of the pecks is computed: where it is 0 the source drills in one go, and of the target no source says what it does";
+const PECKS_HELP: &str = "make sure that Q is above 0";
 const DEPTH: &str =
     "the depth counts from the retract plane, which is not known here, and the target takes it as a place";
 const DEPTH_HELP: &str = "write the depth as a place, or the place of the tool as numbers before the cycle";

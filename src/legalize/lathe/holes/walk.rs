@@ -174,9 +174,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             if !straight {
                 walk.cycle = Cycle::default();
                 walk.place = places.get(at).copied().unwrap_or(begin);
-                walk.speed = None;
-                walk.is_said = false;
-                walk.stands = false;
+                (walk.speed, walk.is_said, walk.stands) = (None, false, false);
                 walk.waits.come_in(told.get(at).copied().unwrap_or_default());
             }
             let mut out = Stmts::with_capacity(block.stmts.len());
@@ -291,9 +289,7 @@ impl Walk {
             kind => {
                 let calls = matches!(kind, StmtKind::ModalCall(_)) && self.takes_wait(before, all);
                 self.cycle = Cycle::default();
-                self.speed = None;
-                self.is_said = false;
-                self.stands = false;
+                (self.speed, self.is_said, self.stands) = (None, false, false);
                 return calls.then_some(Err((CALLS, CALLS_HELP)));
             }
         };
@@ -377,7 +373,8 @@ impl Walk {
 /// What a finding about a hole supposes.
 fn supposed(what: &str, (op, span): (Op, Span)) -> Predicate {
     match op.is_side_hole() {
-        _ if what != by_step::COMPUTED => Predicate::Substitute(op),
+        _ if what == by_place::PECKS => Predicate::Pecks(vec![span]),
+        _ if ![by_step::COMPUTED, by_place::COMPUTED].contains(&what) => Predicate::Substitute(op),
         true => Predicate::Levels(vec![span], 0),
         false => Predicate::Levels(vec![span], 2),
     }
