@@ -2,13 +2,13 @@
 //!
 //! Law: a control looks for the number from the first block of the program on, or from the cycle on and then from the first block; no source
 //! says which of the two. Where both find the first block with the number, that is the contour's, and a later block does without its number.
-//! Side condition: nothing else goes by the numbers: no computed jump, no return to a number. Counter-example: a number that stands before
+//! Side condition: nothing else goes by the numbers: no jump to a later block, no computed one, no return to a number. Counter-example: a number that stands before
 //! the cycle and after it.
 
 use super::straight::returns_into;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Expr, Module, Program, TermKind};
+use crate::ir::{BlockId, Expr, Module, Program, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::text::Span;
@@ -36,7 +36,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let [first, later @ ..] = places.as_slice() else { continue };
             let from_it =
                 |reader: &At| places.iter().find(|place| *place > reader).is_none_or(|place| place == first);
-            if later.is_empty() || !readers.iter().all(from_it) {
+            let is_jumped_to = later.iter().any(|(block, at)| *at == 0 && jumps_to(program, *block));
+            if later.is_empty() || is_jumped_to || !readers.iter().all(from_it) {
                 continue;
             }
             for (block, at) in later {
@@ -54,6 +55,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.add_once(index, &what, told.asked_once());
         }
     }
+}
+
+/// True where a block is come to in another way than from the block before it: a jump to it goes by its number.
+fn jumps_to(program: &Program, block: usize) -> bool {
+    let is_it = |to: BlockId| to.index() == block;
+    program.blocks.iter().enumerate().any(|(at, from)| match &from.term.kind {
+        TermKind::Jump(to) | TermKind::Call { next: to, .. } => is_it(*to) && at + 1 != block,
+        TermKind::Branch { then, otherwise, .. } => is_it(*then) || is_it(*otherwise) && at + 1 != block,
+        kind => kind.successors().into_iter().any(is_it),
+    })
 }
 
 /// By number: the cycles that name it, and where the first of them stands in its file.
