@@ -2,10 +2,12 @@
 
 use super::jobs::{Job, Wish, jobs};
 use super::{FOUND, WELL, common, outcome, reviews, streams};
+use crate::legalize::Elsewhere;
 use crate::library::{Certificates, Conversion, Options, Outcome, ProgramReport, convert, judge_telling};
 use crate::opt::Level;
 use crate::report::{self, Part};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -76,6 +78,19 @@ pub fn run(arguments: &Arguments) -> u8 {
     }
 }
 
+/// Converts a library. Of those that go to one machine of a project the later ones leave free what the earlier ones have there.
+fn one(job: &Job, there: &mut BTreeMap<String, Elsewhere>, (prune, options): (bool, Options)) -> Conversion {
+    let mut lock = job.lock(prune);
+    let elsewhere = job.way.as_ref().map(|[_, machine]| there.entry(machine.clone()).or_default());
+    lock.elsewhere = elsewhere.as_deref().cloned().unwrap_or_default();
+    let conversion = convert(&job.inputs, &job.source, &job.target, lock, options);
+    if let Some(elsewhere) = elsewhere {
+        let names = conversion.programs.iter().filter_map(|program| program.name.as_deref());
+        conversion.lock.held_there(names, elsewhere);
+    }
+    conversion
+}
+
 fn work(arguments: &Arguments) -> Result<u8, u8> {
     let (mut jobs, read) = jobs(&Wish {
         paths: &arguments.paths,
@@ -91,9 +106,10 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let files: usize = jobs.iter().map(|job| job.inputs.len()).sum();
     // On a thread of the pool, whose other work then takes up the memory that a pass gives back.
     let mut conversions: Vec<Conversion> = common::with_spinner(format!("converting {files} files"), || {
-        let made =
-            |job: &Job| convert(&job.inputs, &job.source, &job.target, job.lock(arguments.prune), options);
-        rayon::scope(|_| jobs.iter().map(made).collect())
+        rayon::scope(|_| {
+            let mut there = BTreeMap::new();
+            jobs.iter().map(|job| one(job, &mut there, (arguments.prune, options))).collect()
+        })
     });
     for (job, conversion) in jobs.iter_mut().zip(&conversions) {
         if let Some(what) = job.refusal(conversion) {

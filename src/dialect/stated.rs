@@ -5,6 +5,7 @@ use super::check::{LIMITS, STATEMENTS};
 use super::overlay::Overlay;
 use super::profile::Plain;
 use super::reader::closest;
+use super::rows::Limit;
 use super::{
     Behaviour, CodeHead, Control, Dialect, Mark, Origin, Question, QuestionGroup, Row, matters, registry,
 };
@@ -19,6 +20,9 @@ const MAY_BE_NONE: [&str; 1] = ["brackets"];
 
 /// The limit that says how many characters a line may have.
 const LINE: &str = "line.length";
+
+/// How many turns a minute the spindle makes at the most: no table has it.
+const SPEED: &str = "spindle.speed";
 
 /// No machine takes shorter lines.
 const LEAST_LINE: u32 = 40;
@@ -104,6 +108,11 @@ impl Overlay {
                 }
                 continue;
             }
+            if name == SPEED && most > 0 {
+                let origin = Origin { mark: Mark::Confirmed, ..Origin::of_profile(None) };
+                dialect.limits.push(Limit { name, max: Some(most), alarm: None, origin });
+                continue;
+            }
             match dialect.limits.iter_mut().find(|row| row.name == name) {
                 Some(row) if most == 0 && row.max != Some(0) && !MAY_BE_NONE.contains(&name.as_str()) => {
                     let message = format!("{name} = 0 leaves nothing that a program may have");
@@ -116,7 +125,8 @@ impl Overlay {
                     row.origin.source = "machine profile".into();
                 }
                 None => {
-                    let names: Vec<&str> = dialect.limits.iter().map(|row| row.name.as_str()).collect();
+                    let mut names: Vec<&str> = dialect.limits.iter().map(|row| row.name.as_str()).collect();
+                    names.push(SPEED);
                     let help = format!("its limits are {}", names.join(", "));
                     self.fault(&format!("limits:{name}"), format!("the table has no limit '{name}'"), help);
                 }

@@ -36,7 +36,7 @@ pub use expressions::split::ThenLines;
 pub(crate) use lathe::other_kind::drop_others as drop_what_another_machine_asks;
 pub use layout::program_numbers::ProgramNumbers;
 pub use moves::start::{cancels_length, rests_on, rests_unwritten};
-pub use registers::locked::Locked;
+pub use registers::locked::{Elsewhere, Locked};
 pub use registers::map::{Register, Registers};
 pub use registers::names::name_of;
 pub use rewrite::{Position, PreStatement, Rewriter, Wanted, rewrite_program};

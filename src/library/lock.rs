@@ -3,7 +3,7 @@
 
 use super::outputs::read_text;
 use crate::ir::analysis::Numbers;
-use crate::legalize::{Locked, Registers};
+use crate::legalize::{Elsewhere, Locked, Registers};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -39,6 +39,9 @@ pub struct Lock {
     /// Files of earlier runs that the present run does not convert: what they rely on stays as it is.
     #[serde(skip)]
     pub others: Vec<String>,
+    /// What other libraries of this run have on the same machine.
+    #[serde(skip)]
+    pub elsewhere: Elsewhere,
     /// Register numbers on the target, by the variable's name on the source.
     #[serde(default)]
     pub variables: BTreeMap<String, u32>,
@@ -156,6 +159,14 @@ impl Lock {
         }
     }
 
+    /// What a library that was converted with this lock has on its machine, besides the programs of these names.
+    pub fn held_there<'n>(&self, names: impl Iterator<Item = &'n str>, into: &mut Elsewhere) {
+        let own = names
+            .filter_map(|name| name.trim_start_matches(|letter: char| !letter.is_ascii_digit()).parse().ok());
+        into.programs.extend(self.programs.values().copied().chain(own));
+        into.registers.extend(self.variables.values().chain(&self.own).copied());
+    }
+
     /// What the passes are told of it.
     pub fn locked(&self) -> Locked<'_> {
         Locked {
@@ -166,6 +177,7 @@ impl Lock {
             own: &self.own,
             reached: Numbers::of(self.reached.iter().copied()),
             others: &self.others,
+            elsewhere: &self.elsewhere,
         }
     }
 

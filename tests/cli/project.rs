@@ -256,3 +256,43 @@ fn a_file_has_the_machine_of_its_library() {
         assert!(run.out.contains(code), "{}{}", run.out, run.err);
     }
 }
+
+/// Two old machines go to one new one: a number that a program is given there is no program's of the other library, and what
+/// one library keeps in a register the other one does not use.
+#[test]
+fn libraries_that_go_to_one_machine_share_no_invented_number() {
+    let project = "\
+[machines.old]
+dialect = \"fadal\"
+[machines.new]
+dialect = \"fanuc\"
+[libraries.first]
+path = \"first\"
+machine = \"old\"
+[libraries.first.targets]
+new = \"out/first\"
+[libraries.second]
+path = \"second\"
+machine = \"old\"
+[libraries.second.targets]
+new = \"out/second\"
+";
+    let program = |name: &str| {
+        format!(
+            "N1 O{name}\nN2 L100\nN3 G90 G0 X1.\nN4 M17\nN5 M30\nN6 G20 G90 G94 G17 E1\nN7 #V1=V1+1\nN8 L101\nN9 M2\n"
+        )
+    };
+    let shop = Shop::with(&[
+        ("macroglot.toml", project),
+        ("first/a.nc", &program("1")),
+        ("second/b.nc", &program("2")),
+    ]);
+    for _ in 0..2 {
+        shop.run("convert");
+        let (first, second) = (shop.read("out/first/a.nc"), shop.read("out/second/b.nc"));
+        assert!(first.contains("O8000 (L100)") && !first.contains("O8001"), "{first}");
+        assert!(second.contains("O8001 (L100)") && !second.contains("O8000"), "{second}");
+        let counter = |text: &str| text.split_once("(V1=").unwrap().1.split(')').next().unwrap().to_owned();
+        assert_ne!(counter(&first), counter(&second));
+    }
+}

@@ -7,3 +7,4 @@ pub(in crate::legalize) mod facts;
 pub(in crate::legalize) mod machine_places;
 pub(in crate::legalize) mod runtime;
 pub(in crate::legalize) mod shop;
+pub(in crate::legalize) mod top_speed;

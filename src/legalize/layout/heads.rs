@@ -76,6 +76,7 @@ fn take_numbers(module: &mut Module, earlier: &mut Earlier, context: &Context<'_
         return false;
     }
     let mut taken: BTreeSet<u32> = context.locked.programs.values().copied().collect();
+    taken.extend(&context.locked.elsewhere.programs);
     for program in &module.programs {
         let called = program.blocks.iter().flat_map(calls_of).filter_map(|call| match &call.callee {
             Callee::Program(name) => Some(name),

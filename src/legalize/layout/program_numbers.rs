@@ -55,8 +55,9 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
     let earlier = context.locked.programs;
     let mut chosen: BTreeMap<String, u32> = BTreeMap::new();
     let mut taken: BTreeSet<u32> = earlier.values().copied().collect();
-    // What stands in the machine would be written over.
-    let stands = |number: u32| context.target.standing().is_taken(number);
+    // What stands in the machine, or comes there from another library, would be written over.
+    let elsewhere = &context.locked.elsewhere.programs;
+    let stands = |number: u32| context.target.standing().is_taken(number) || elsewhere.contains(&number);
     let names: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     for name in &names {
         if let ProgramName::Number(n) = name {

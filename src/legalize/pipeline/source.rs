@@ -3,7 +3,7 @@
 use super::Pass;
 use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
-use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop};
+use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop, top_speed};
 use crate::legalize::cycles::{
     cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, stored_places,
 };
@@ -113,6 +113,8 @@ pub(super) const SOURCE: &[Pass] = &[
         cutter_tables::run,
     )
     .when(cutter_tables::concerns),
+    Pass::reports("top-speed", "tells of speeds that the target's spindle does not turn", top_speed::run)
+        .when(top_speed::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
         .when(changes::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)

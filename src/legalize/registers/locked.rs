@@ -36,7 +36,20 @@ pub struct Locked<'l> {
     pub reached: Numbers,
     /// Files of earlier runs that this run does not convert anew.
     pub others: &'l [String],
+    /// What other libraries have on the same machine.
+    pub elsewhere: &'l Elsewhere,
 }
+
+/// What other libraries that go to the same machine have there: nothing that this one invents may have it too.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Elsewhere {
+    /// Numbers of their programs.
+    pub programs: BTreeSet<u32>,
+    /// Registers that keep something of theirs.
+    pub registers: BTreeSet<u32>,
+}
+
+static NOWHERE: Elsewhere = Elsewhere { programs: BTreeSet::new(), registers: BTreeSet::new() };
 
 impl Default for Locked<'_> {
     fn default() -> Self {
@@ -49,6 +62,7 @@ impl Default for Locked<'_> {
             own: &[],
             reached,
             others: &[],
+            elsewhere: &NOWHERE,
         }
     }
 }

@@ -50,7 +50,13 @@ impl<'a> Pool<'a> {
         // What every control of the kind has comes before what must be bought.
         rows.sort_by_key(|row| (row.option.is_some(), row.first));
         let name = pool_name(target);
-        let used = effective.variables.values().chain(locked.own).copied().collect();
+        let used = effective
+            .variables
+            .values()
+            .chain(locked.own)
+            .chain(&locked.elsewhere.registers)
+            .copied()
+            .collect();
         let scratch = effective.scratch.clone();
         let (over_calls, alone) = (locked.over_calls.iter().copied().collect(), locked.others.is_empty());
         Self {

@@ -67,3 +67,32 @@ fn a_way_to_more_than_an_alarm_is_not_compared_by_reading() {
     let both = programs(("fanuc", &text), ("fanuc", &text), &[]).remove(1);
     assert_eq!(both.outcome, Outcome::Undecided, "{both:#?}");
 }
+
+/// A macro that stops with its own alarm whatever its argument is, but for one that no run gives it.
+const TOO_BIG: &str = "\
+O1
+G21G90G17G40G49G80G94G98G54
+G65P2A5.
+G0X1.
+M30
+O2
+IF[#1LT8.]GOTO91
+G1X#1F100.
+M99
+N91#3000=35(CUTTER TOO BIG)
+";
+
+#[test]
+fn a_call_that_every_run_stops_in_leaves_open_what_stands_after_it() {
+    let main = |target: &str| programs(("fanuc", TOO_BIG), ("haas", target), &[]).remove(0);
+    // With another place after the call it looks the same, as no run comes to it.
+    for target in [TOO_BIG.to_owned(), TOO_BIG.replace("G0X1.", "G0X2.")] {
+        let found = main(&target);
+        assert_eq!(found.outcome, Outcome::Undecided, "{found:#?}");
+        let text = "every run that comes to line 3 stops in what it calls";
+        assert!(found.reasons.iter().any(|reason| reason.text.contains(text)), "{found:#?}");
+    }
+    let fits = TOO_BIG.replace("A5.", "A9.");
+    let found = programs(("fanuc", &fits), ("haas", &fits.replace("G0X1.", "G0X2.")), &[]).remove(0);
+    assert_eq!(found.outcome, Outcome::Different);
+}
