@@ -77,6 +77,12 @@ super::vocabulary! {
         CycleQ = "cycle.q",
         /// How many times as fast as it goes in a tap comes out.
         TapRetract = "cycle.tap.retract",
+        /// Speed of the spindle while a tap comes out, turns per minute.
+        TapOutSpeed = "cycle.tap.out.speed",
+        /// How near an axis must be to its place before the next step of a tap begins.
+        InPosition = "in.position",
+        /// How near the spindle must be to its place before the next step of a tap begins.
+        InPositionSpindle = "in.position.spindle",
         /// Dwell at the bottom of a drilling cycle, milliseconds.
         CycleDwell = "cycle.dwell",
         /// How often a cycle or motion block is repeated.

@@ -85,6 +85,7 @@ impl Role {
         matches!(
             self,
             Role::Speed
+                | Role::TapOutSpeed
                 | Role::Tool
                 | Role::Turret
                 | Role::ContourFirst

@@ -45,6 +45,13 @@ impl Control {
         self.dialect.codes.get(place.0)
     }
 
+    /// The place of a row of this control.
+    pub fn place_of_code(&self, row: &CodeMeaning) -> Option<CodePlace> {
+        let rows = self.codes.get(&row.head()?)?;
+        let own = |at: &usize| self.dialect.codes.get(*at).is_some_and(|other| std::ptr::eq(other, row));
+        rows.iter().map(|(at, _)| *at).find(own).map(CodePlace)
+    }
+
     /// All rows of a code, whatever words they want beside it.
     pub fn rows_of(&self, head: CodeHead) -> impl Iterator<Item = &CodeMeaning> {
         self.codes.get(&head).into_iter().flatten().filter_map(|(at, _)| self.dialect.codes.get(*at))

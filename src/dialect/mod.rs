@@ -83,7 +83,7 @@ pub use row::Row;
 pub use rows::*;
 pub use second_home::{HOLE_CLAMP, SECOND_HOME, STEP_LETTERS};
 pub use site::{SiteCode, Without};
-pub use spelling::{Beside, CodeHead, measures};
+pub use spelling::{Beside, CodeHead, beside_letter, measures};
 pub use standing::Standing;
 pub use start::{Start, StartMode};
 pub use turret_word::{TurretWord, apart as turret_parts};

@@ -228,7 +228,7 @@ pub struct CodeMeaning {
     pub also: Vec<Op>,
     /// Operations that it does besides, in the same instant: a builder's `M13` turns the spindle and switches coolant on. Such
     /// a code is read, and never written.
-    #[serde(skip_deserializing)]
+    #[serde(default)]
     pub with: Vec<Op>,
     /// Operands that the code itself fixes: `G55` selects work offset 2.
     #[serde(default)]

@@ -9,6 +9,11 @@ pub const fn measures(letter: char) -> bool {
     !matches!(letter, 'D' | 'H' | 'L' | 'P' | 'S' | 'T')
 }
 
+/// The letter of a word among those that stand beside a code: in lower case where a comma stands before it.
+pub const fn beside_letter(letter: char, comma: bool) -> char {
+    if comma { letter.to_ascii_lowercase() } else { letter }
+}
+
 /// The letter and number of a code, the number in thousandths so that `G54.1` is exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CodeHead {
@@ -21,7 +26,7 @@ pub struct CodeHead {
 /// A word that must stand beside a code for a row to hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Beside {
-    /// Its letter.
+    /// Its letter, as [`beside_letter`] has it.
     pub letter: char,
     /// Its value in thousandths; absent where any will do.
     pub thousandths: Option<u32>,
@@ -49,14 +54,18 @@ impl CodeHead {
     }
 
     pub(super) fn read(word: &str) -> Option<Self> {
-        let (letter, number) = split(word)?;
+        let (letter, number) = split(word).filter(|(letter, _)| letter.is_ascii_uppercase())?;
         Self::new(letter, number?)
     }
 }
 
 fn split(word: &str) -> Option<(char, Option<f64>)> {
+    let (comma, word) = match word.strip_prefix(',') {
+        Some(word) => (true, word),
+        None => (false, word),
+    };
     let mut chars = word.chars();
-    let letter = chars.next().filter(char::is_ascii_uppercase)?;
+    let letter = beside_letter(chars.next().filter(char::is_ascii_uppercase)?, comma);
     let rest = chars.as_str();
     if rest.is_empty() {
         return Some((letter, None));

@@ -49,6 +49,10 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         let height = machine.frame.program(&machine.position)[along];
         let cycle = machine.cycle.get_or_insert_with(|| Cycle::new(op, height));
         cycle.op = op;
+        if op != Op::CycleTapByLead {
+            // A lead is of the tap that is told it.
+            cycle.lead = None;
+        }
     }
     let (unit, incremental) = (machine.unit(), machine.incremental);
     let Some(cycle) = &mut machine.cycle else {

@@ -4,7 +4,7 @@ use super::Style;
 use super::code::{Coded, Ex, Meaning, Word};
 use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
-use crate::dialect::{Control, Question, Row};
+use crate::dialect::{Control, Question, Row, beside_letter};
 
 /// The meaning, where no code is computed.
 pub fn fixed(control: &Control, style: &Style, words: &[Word]) -> Option<Meaning> {
@@ -52,10 +52,8 @@ pub fn of(
         ..Meaning::default()
     };
     let present = || words.iter().zip(there).zip(values).enumerate().filter(|(_, ((_, there), _))| **there);
-    let block: Vec<(char, Option<f64>)> = present()
-        .filter(|(_, ((word, _), _))| !word.comma)
-        .map(|(_, ((word, _), value))| (word.letter, *value))
-        .collect();
+    let block: Vec<(char, Option<f64>)> =
+        present().map(|(_, ((word, _), value))| (beside_letter(word.letter, word.comma), *value)).collect();
     let mut called = false;
     for (at, ((word, _), value)) in present() {
         if !is_code(word.letter, word.comma) {

@@ -3,7 +3,7 @@
 use super::Emitter;
 use super::expressions::Place;
 use crate::canon::{Op, Role};
-use crate::dialect::{BareLength, CodeHead, Question};
+use crate::dialect::{BareLength, CodeHead, Question, beside_letter};
 use crate::emit::common::spellings::{Code, Operand};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
 use smallvec::SmallVec;
@@ -63,14 +63,16 @@ impl<'p> Emitter<'p> {
         for code in codes {
             written.extend(code.row.head().map(|head| (head.letter, Some(head.number()))));
             written.extend(code.text.split(' ').skip(1).filter_map(|word| {
+                let comma = word.starts_with(',');
+                let word = word.strip_prefix(',').unwrap_or(word);
                 let letter = word.chars().next()?;
-                Some((letter, word.get(letter.len_utf8()..)?.parse().ok()))
+                Some((beside_letter(letter, comma), word.get(letter.len_utf8()..)?.parse().ok()))
             }));
         }
         for item in &nc.items {
             let NcItem::Word(role, value) = item else { continue };
-            if let Some(((letter, false), _)) = self.spellings.letter(*role, codes) {
-                written.push((letter, value.constant()));
+            if let Some(((letter, comma), _)) = self.spellings.letter(*role, codes) {
+                written.push((beside_letter(letter, comma), value.constant()));
             }
         }
         for code in codes.iter().filter(|code| code.shared) {

@@ -109,6 +109,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                         continue;
                     }
                 }
+                if rigid && keeps && taps && stmt.kind.nc().is_some_and(|nc| nc.word(Role::Lead).is_some()) {
+                    // The tap itself says that it is rigid: the code stands before it, with the speed.
+                    changed = true;
+                    match speed_word(speed, &stmt, context.target) {
+                        Some(speed) => {
+                            remove(&mut stmt);
+                            block.stmts.push(code(speed, &stmt));
+                        }
+                        None => found.push((stmt.site.span, SPEED)),
+                    }
+                }
                 if all && taps && writes && !(lathe && coded) {
                     changed = true;
                     let turns = state.op(Group::SpeedMode) != Some(Op::SurfaceSpeed);
@@ -207,10 +218,17 @@ fn misplaced(block: &Block, mut state: Modal) -> Vec<(crate::text::Span, Told)> 
     found
 }
 
+/// Takes the code alone out of its block.
+fn remove(stmt: &mut Stmt) {
+    if let StmtKind::Nc(nc) = &mut stmt.kind {
+        nc.items.retain(|item| *item != NcItem::Op(Op::RigidTaps));
+    }
+}
+
 /// Takes the code out of its block; the speed beside it stays, unless it is the one said before.
 fn take(stmt: &mut Stmt, said: Speed) {
+    remove(stmt);
     let StmtKind::Nc(nc) = &mut stmt.kind else { return };
-    nc.items.retain(|item| *item != NcItem::Op(Op::RigidTaps));
     let again = |value: &Expr| value.constant().is_some_and(|speed| said == Speed::Known(speed));
     let turns = nc.ops().any(|op| op.is_tap() || op.group() == Group::Spindle);
     if !turns {

@@ -56,6 +56,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     let says = nc.word(Role::Speed).cloned();
                     if nc.word(Role::Lead).is_some() {
                         // It has its lead.
+                        if !told_speed(nc, speed) {
+                            found.push((Code::NoEquivalent, span, SPEED));
+                        }
                     } else if held == Held::In(index)
                         && !vacant
                         && is_computed(nc, speed)
@@ -136,6 +139,23 @@ fn is_computed(nc: &Nc, speed: Speed) -> bool {
     speed == Speed::Said || nc.word(Role::Feed).is_some_and(|feed| feed.constant().is_none())
 }
 
+const SPEED: &str = "a tapping cycle by its lead, and its speed is not known here: write S into its block";
+
+/// Gives a tap by its lead the speed in force, where its block has none; false if it is not known.
+fn told_speed(nc: &mut Nc, speed: Speed) -> bool {
+    for item in &mut nc.items {
+        if *item == NcItem::Op(Op::CycleTap) {
+            *item = NcItem::Op(Op::CycleTapByLead);
+        }
+    }
+    match speed {
+        _ if nc.word(Role::Speed).is_some() => {}
+        Speed::Known(speed) => nc.items.push(NcItem::Word(Role::Speed, Expr::Number(speed))),
+        _ => return false,
+    }
+    true
+}
+
 /// Makes a tap by feed one by lead.
 fn by_lead_now(nc: &mut Nc, lead: Expr, speed: Expr) {
     nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Feed | Role::Speed, _)));
@@ -160,6 +180,12 @@ pub(in crate::legalize) enum Speed {
 }
 
 impl Speed {
+    /// The speed after a statement.
+    pub(super) fn after(mut self, stmt: &Stmt) -> Self {
+        self.step(stmt);
+        self
+    }
+
     pub(in crate::legalize) fn step(&mut self, stmt: &Stmt) {
         let StmtKind::Nc(nc) = &stmt.kind else {
             if matches!(stmt.kind, StmtKind::ModalCall(_)) {

@@ -3,6 +3,7 @@
 //! Law: a tap that turns S times a minute and advances the lead p each turn feeds S * p a minute. Side conditions:
 //! the block has both words; feed is per minute. Where nobody names how feeds count, they count so, as in all other blocks, unless
 //! the library has a code for another way. Counter-example: under feed per turn the feed word is the lead itself.
+//! Under feed per turn the lead is the feed as it stands. A tap whose block says no speed turns by the one in force.
 //! A later hole that changes one of the two gets the feed of both, where its block follows the cycle's own.
 //! The feed that was in force is said again where the cycle ends, for the source's tap leaves it alone. Where it is not a known
 //! number, the target reads it before the tap and says that, if it can and every way to the end of the cycle came by the
@@ -11,18 +12,19 @@
 mod kept;
 mod touched;
 
-use super::rigid_taps::told_before;
-use super::tap_leads::by_lead;
+use super::rigid_taps::{speed_word, told_before};
+use super::tap_leads::{Speed, Speeds, by_lead};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
+use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
 use crate::text::Span;
 use kept::{Does, Ends, Kept};
 
-const ONLY: &str = "a tapping cycle by its lead, without a speed in its block, or not in feed per minute";
+const ONLY: &str = "a tapping cycle by its lead, and its speed is not known here, or it is not in feed per minute: write S into its block";
 
 const UNDER: &str = "a speed or a lead under a tapping cycle that an earlier block told the other: write the cycle again with both";
 
@@ -47,13 +49,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let by_lead = by_lead(context.source);
     let one_mode = !context.features.any_op(|op| matches!(op, Op::FeedPerTurn | Op::FeedInverse));
     let facts = context.modal_facts(module);
-    let kept = Kept::of(module, &facts, context.target);
+    let kept = Kept::of(module, &facts, context.target, by_lead);
+    let speeds = OverCalls::of(module, &Speeds);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let register = kept.register(index);
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let (mut state, mut in_force) = (facts.at(index, id), kept.at(index, id));
-            let mut told = None;
+            let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
+            let (mut told, mut leads) = (None, true);
             let stmts = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::replace(&mut block.stmts, stmts) {
                 let was = state.op(Group::Cycle);
@@ -61,18 +65,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let span = stmt.site.span;
                 let stays = was.is_some_and(Op::is_tap) && state.op(Group::Cycle) == was;
                 let skipped = stmt.site.skip.is_some();
+                let after = speed.after(&stmt);
+                let before = std::mem::replace(&mut speed, after);
+                let in_force = speed_word(speed, &stmt, context.target);
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    let faster = nc.word(Role::Speed).is_some()
+                        && (by_lead || leads && (before != speed || speed == Speed::Unknown));
                     if nc.ops().any(Op::is_tap) {
                         told = Told::of(nc).filter(|_| !skipped);
+                        leads = nc.word(Role::Lead).is_some() || skipped && leads;
                     } else if stays
-                        && by_lead
-                        && [Role::Speed, Role::Lead].iter().any(|role| nc.word(*role).is_some())
+                        && (faster || nc.word(Role::Lead).is_some())
                         && (skipped || !told.as_mut().is_some_and(|told: &mut Told| told.changes(nc)))
                     {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, UNDER));
                     }
                     if nc.ops().any(Op::is_tap)
-                        && let Some((code, what)) = give_feed(nc, state.op(Group::FeedMode), one_mode)
+                        && let Some((code, what)) =
+                            give_feed(nc, in_force, state.op(Group::FeedMode), one_mode)
                     {
                         context.add(index, Diagnostic::new(code, span, what));
                     }
@@ -141,8 +151,17 @@ fn read(stmts: &mut Stmts, reading: Stmt) {
 }
 
 /// Gives a tap by its lead a feed; else says why not, or on what condition.
-fn give_feed(nc: &mut Nc, mode: Option<Op>, one_mode: bool) -> Option<(Code, &'static str)> {
-    let (speed, lead) = (nc.word(Role::Speed).cloned(), nc.word(Role::Lead).cloned()?);
+fn give_feed(
+    nc: &mut Nc,
+    in_force: Option<Expr>,
+    mode: Option<Op>,
+    one_mode: bool,
+) -> Option<(Code, &'static str)> {
+    let (speed, lead) = (nc.word(Role::Speed).cloned().or(in_force), nc.word(Role::Lead).cloned()?);
+    if mode == Some(Op::FeedPerTurn) && !nc.has(Op::CycleTapByLead) {
+        set_feed(nc, Expr::Number(1.0), lead);
+        return None;
+    }
     let Some(speed) = speed.filter(|_| matches!(mode, None | Some(Op::FeedPerMinute))) else {
         return Some((Code::NoEquivalent, ONLY));
     };

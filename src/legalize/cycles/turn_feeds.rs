@@ -84,6 +84,9 @@ fn feeds(program: &Program, starts: &[(Modal, Speed)]) -> Option<Vec<f64>> {
 /// The feed per minute of a tap that a block in feed per turn begins; nothing in the inner value for a block that begins
 /// none. None where the block may not be so.
 fn turned(nc: &Nc, state: &Modal, speed: Speed) -> Option<Option<f64>> {
+    if nc.word(Role::Lead).is_some() {
+        return None;
+    }
     if nc.ops().any(Op::is_tap) {
         let feed = nc.word(Role::Feed).map_or(state.feed(), Expr::constant)?;
         let Speed::Known(speed) = speed else { return None };

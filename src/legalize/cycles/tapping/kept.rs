@@ -80,6 +80,8 @@ pub enum Ends {
 /// The feed at the start of every block of a library.
 pub struct Kept {
     readable: bool,
+    /// True where a tap of the source is known to leave the feed as it was: it is said again where the cycle ends, needed or not.
+    at_end: bool,
     /// True where what nobody knows may run in the middle of a tap, or with its feed.
     open: bool,
     /// By program: whether it returns, and whether others call it by its name.
@@ -95,9 +97,10 @@ pub struct Kept {
 
 impl Kept {
     /// Follows the feed through a library.
-    pub fn of(module: &Module, facts: &ModalFacts, target: &Control) -> Self {
+    pub fn of(module: &Module, facts: &ModalFacts, target: &Control, at_end: bool) -> Self {
         let mut kept = Self {
             readable: target.system_address(Sys::Address, &[ADDRESS_F]).is_some(),
+            at_end,
             open: false,
             returns: module.programs.iter().map(Program::returns).collect(),
             called: called(module),
@@ -204,7 +207,7 @@ impl Kept {
             does = match (known, *feed) {
                 _ if !ends && !needed => Does::Nothing,
                 (Some(feed), _) => Does::Says(feed),
-                (None, Feed::Held { .. }) if !other => Does::SaysHeld,
+                (None, Feed::Held { .. }) if !other && (needed || self.at_end) => Does::SaysHeld,
                 _ if needed => Does::Fails,
                 _ => Does::Nothing,
             };

@@ -1,7 +1,7 @@
 //! One program while it is lowered.
 
 use crate::canon::{Op, Role};
-use crate::dialect::{Control, Question};
+use crate::dialect::{CodePlace, Control, Question};
 use crate::ir::{BlockId, Builder, SourceInfo, Var};
 use crate::lower::common::{Findings, Nowhere};
 use crate::lower::macro_b::codes::{CodeId, Codes};
@@ -93,6 +93,8 @@ pub struct SkippedLoop {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     pub code: Option<CodeId>,
+    /// Its row, where words beside it told which one it is.
+    pub beside: Option<CodePlace>,
     /// True where a jump may have come in since the code, with another one in force.
     pub joined: bool,
     /// How the feed counts, where a code before says it on every way.
@@ -108,7 +110,7 @@ impl Motion {
 
     /// Another way comes in with what is in force there.
     pub fn meet(&mut self, other: Self) {
-        self.joined |= other.joined || self.code != other.code;
+        self.joined |= other.joined || (self.code, self.beside) != (other.code, other.beside);
         self.feed = self.feed.filter(|feed| other.feed == Some(*feed));
     }
 }

@@ -3,6 +3,7 @@
 mod arguments;
 mod bare;
 mod beside;
+mod in_cycle;
 mod named_by;
 mod nc;
 mod roles;

@@ -3,7 +3,7 @@
 use super::roles::BlockCodes;
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{CodeMeaning, Question};
+use crate::dialect::{CodeMeaning, Question, beside_letter};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo, StmtKind};
 use crate::lower::common::constant;
 use crate::lower::macro_b::build::{Lowering, Motion};
@@ -31,9 +31,9 @@ impl<'a> Lowering<'a> {
         if !code.depends {
             return code.row;
         }
-        let plain = words.iter().filter(|(word, _)| !word.comma);
+        let letter = |word: &Word| beside_letter(word.letter, word.comma);
         let letters: Vec<(char, Option<f64>)> =
-            plain.map(|(word, _)| (word.letter, word.value.as_ref().and_then(constant))).collect();
+            words.iter().map(|(word, _)| (letter(word), word.value.as_ref().and_then(constant))).collect();
         self.control.code(code.head.letter, code.head.number(), &letters)
     }
 
@@ -81,6 +81,7 @@ impl<'a> Lowering<'a> {
                 self.word(word, span, &codes, &mut nc, &mut seen);
             }
         }
+        self.check_lead(&nc, &codes, site.span);
         self.radius_by_length_word(&mut nc, site.span);
         self.check_m_codes(&seen, site.span);
         self.check_turning(&nc, site.span);
@@ -210,7 +211,9 @@ impl<'a> Lowering<'a> {
             self.findings.add(Diagnostic::new(Code::GroupTwice, span, message));
         }
         if matches!(group, Group::Motion | Group::Cycle) {
-            self.motion = Motion { code: Some(id), joined: false, ..self.motion };
+            let depends = self.codes.get(id).is_some_and(|code| code.depends);
+            let beside = if depends { self.control.place_of_code(row) } else { None };
+            self.motion = Motion { code: Some(id), beside, joined: false, ..self.motion };
         }
         // Many codes share these operations: which one it is, only its number says.
         if matches!(
@@ -327,7 +330,8 @@ fn belongs_to_code(word: &Word, codes: &BlockCodes<'_>) -> bool {
     codes.iter().any(|(_, row)| {
         row.code.contains(' ')
             && row.beside().is_some_and(|beside| {
-                beside.iter().any(|b| b.letter == word.letter && b.thousandths.is_some()) && !word.comma
+                let letter = beside_letter(word.letter, word.comma);
+                beside.iter().any(|b| b.letter == letter && b.thousandths.is_some())
             })
     })
 }
@@ -349,7 +353,7 @@ fn drop_clashing(nc: &mut Nc, op: Op) -> bool {
 #[derive(Default)]
 pub struct Seen {
     groups: u32,
-    roles: u128,
+    roles: [u128; 2],
     m_codes: u32,
 }
 
@@ -364,9 +368,10 @@ impl Seen {
 
     /// Notes a role; true where it was there.
     pub fn role(&mut self, role: Role) -> bool {
-        let bit = 1u128.checked_shl(role as u32).unwrap_or(0);
-        let there = self.roles & bit != 0;
-        self.roles |= bit;
+        let (at, bit) = (role as usize / 128, 1u128 << (role as u32 % 128));
+        let Some(roles) = self.roles.get_mut(at) else { return false };
+        let there = *roles & bit != 0;
+        *roles |= bit;
         there
     }
 }

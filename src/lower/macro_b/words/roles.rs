@@ -51,7 +51,7 @@ impl<'a> Lowering<'a> {
         let own = codes.iter().rev().find(|(_, row)| matches!(row.op.group(), Group::Motion | Group::Cycle));
         let in_force = match own {
             Some((_, row)) => Some(*row),
-            None => self.motion.code.and_then(|id| self.codes.get(id)?.row),
+            None => self.code_in_force(),
         };
         let modal = in_force.and_then(|row| explicit(row, word));
         if let Some(role) = modal.or(usual.filter(|_| !word.comma).map(|usual| usual.role))
@@ -70,6 +70,11 @@ impl<'a> Lowering<'a> {
         let common = |role: Role| role.is_axis() || matches!(role, Role::Feed | Role::Speed | Role::Tool);
         if !usual.is_some_and(|usual| common(usual.role)) && codes.iter().any(|(_, row)| own_way(row.op)) {
             return Some((Role::Builder, None));
+        }
+        if let Some(row) = in_force.filter(|row| row.op.is_cycle())
+            && self.is_corner_of_cycle(word, span, row)
+        {
+            return None;
         }
         let Some(usual) = usual.filter(|_| !self.foreign_axis(word)) else {
             self.no_role(word, span, codes, in_force);
@@ -337,6 +342,9 @@ fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMean
                  between pecks is a setting of its own. Tap to the depth in one go, or \
                  write the pecks as taps of their own"
             )
+        }),
+        'E' => has(taps).map(|code| {
+            format!("E beside {code} counts the threads an inch, which is not converted: write the lead (F)")
         }),
         'J' => has(taps).map(|code| format!("no source says what J beside {code} is on this control")),
         _ => None,

@@ -196,7 +196,7 @@ impl Lowering<'_> {
         let drills = |op: Op| op.is_cycle();
         let other = nc.items.iter().any(|item| matches!(item, NcItem::Code(..)))
             || nc.ops().any(drills)
-            || self.motion.code.and_then(|id| self.codes.get(id)?.row).is_some_and(|row| drills(row.op));
+            || self.code_in_force().is_some_and(|row| drills(row.op));
         let cuts = Role::STEPS.iter().any(|(whole, step)| {
             !matches!(whole, Role::C) && (nc.word(*whole).is_some() || nc.word(*step).is_some())
         });

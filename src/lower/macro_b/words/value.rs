@@ -56,6 +56,12 @@ impl<'a> Lowering<'a> {
         if point || number == 0.0 || !(counted || matches!(role, Role::Feed | Role::Lead)) {
             return Some((role, Expr::Number(number)));
         }
+        if role == Role::Lead && self.control.machine() == Machine::Mill {
+            let what =
+                "no source says what the lead of a tap counts without a decimal point: write the point";
+            self.findings.not_understood(value.span, what);
+            return Some((role, Expr::Number(number)));
+        }
         if !counted {
             return Some((role, self.bare_feed(role, number, value.span)));
         }

@@ -1,0 +1,58 @@
+//! Words beside a drilling cycle, or under one, that would be something else in another block.
+
+use super::roles::BlockCodes;
+use crate::canon::Role;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::CodeMeaning;
+use crate::ir::Nc;
+use crate::lower::macro_b::build::Lowering;
+use crate::syntax::Word;
+use crate::text::Span;
+
+/// The setting that says what a comma word beside a tap means.
+const TAP_WORD: &str = "setting.tap_word";
+
+const NO_LEAD: &str =
+    "this tap is told no lead, so it is not known how far it goes in a turn: write F into its block";
+
+impl<'a> Lowering<'a> {
+    /// The motion code or the cycle in force, as the text has it.
+    pub(super) fn code_in_force(&self) -> Option<&'a CodeMeaning> {
+        match self.motion.beside {
+            Some(place) => self.control.code_at(place),
+            None => self.codes.get(self.motion.code?)?.row,
+        }
+    }
+
+    /// True, and an error, for a corner beside a drilling cycle or under it: no cut follows that it could round.
+    pub(super) fn is_corner_of_cycle(&mut self, word: &Word, span: Span, row: &CodeMeaning) -> bool {
+        let usual = self.codes.letter(word.letter, word.comma).map(|usual| usual.role);
+        if !matches!(usual, Some(Role::CornerRadius | Role::CornerChamfer)) {
+            return false;
+        }
+        let comma = if word.comma { "," } else { "" };
+        let (letter, code) = (word.letter, row.code.split(' ').next().unwrap_or_default());
+        let what = format!("{comma}{letter} has no meaning beside {code}: a drilling cycle has no corner");
+        let told = Diagnostic::new(Code::NotUnderstood, span, what);
+        let of_tap = letter == 'R' && row.op.is_tap();
+        self.findings.add(match self.control.setting(TAP_WORD).filter(|_| of_tap) {
+            Some("none") => {
+                let help = "if it makes the tap synchronous, with F as its lead, say 'tap_word' under [settings] of the machine's \
+                            profile; else take it out";
+                told.with_help(help).lacking(TAP_WORD)
+            }
+            Some(_) => told.with_help("write ,R0 or ,R1 into the block of the tapping cycle, as a number"),
+            None => told.with_help("take it out, or end the cycle (G80) before the cut"),
+        });
+        true
+    }
+
+    /// An error for a tap of this block whose code takes a lead, and which is told none.
+    pub(super) fn check_lead(&mut self, nc: &Nc, codes: &BlockCodes<'a>, span: Span) {
+        let told = |nc: &Nc| nc.word(Role::Lead).is_some() || nc.word(Role::ThreadsPerInch).is_some();
+        let by_lead = codes.iter().any(|(_, row)| row.op.is_tap() && row.words.get("F") == Some(&Role::Lead));
+        if by_lead && !told(nc) {
+            self.findings.not_understood(span, NO_LEAD);
+        }
+    }
+}
