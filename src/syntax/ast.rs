@@ -236,6 +236,19 @@ impl ProgramName {
         }
     }
 
+    /// The name of the part of a numbered program that begins at one of its sequence numbers: no program in any source has it.
+    pub fn part(program: u32, sequence: u32) -> Self {
+        ProgramName::Name(format!("O{program}/N{sequence}"))
+    }
+
+    /// The program and the sequence number of such a part.
+    pub fn as_part(&self) -> Option<(u32, u32)> {
+        let ProgramName::Name(name) = self else { return None };
+        let (program, sequence) = name.strip_prefix('O')?.split_once("/N")?;
+        let part = (program.parse().ok()?, sequence.parse().ok()?);
+        (*self == Self::part(part.0, part.1)).then_some(part)
+    }
+
     /// What is left of a name as people write it without what stands before a number: `12` of `O0012`.
     pub fn digits(shown: &str) -> &str {
         shown.trim_start_matches(['O', '0'])

@@ -127,17 +127,31 @@ impl<'c> Runner<'c> {
         self.frames.iter().map(|frame| frame.visible).max().unwrap_or(0)
     }
 
-    /// A call of a program that shares the caller's locals.
-    pub fn call_program(&mut self, number: f64, count: Option<f64>, alias: bool) -> Result<Next, Halt> {
+    /// A call of a program that shares the caller's locals, from a sequence number on where it says one.
+    pub fn call_program(
+        &mut self,
+        number: f64,
+        (count, from): (Option<f64>, Option<f64>),
+        alias: bool,
+    ) -> Result<Next, Halt> {
         let (number, count) = self.repeat_digits(number.round(), count);
         let Some(called) = self.called(number) else { return Err(missing(number)) };
         let Some(count) = self.count(count) else { return Ok(Next::On) };
         let section = match called {
             Called::Section(section) => section,
+            Called::Outside(_) if from.is_some() => {
+                return Err(Halt::Error("a part of a program that is not in the library".into()));
+            }
             Called::Outside(program) => return self.call_outside(program, count, None),
         };
         let mut frame = self.frame(section, count);
         frame.alias |= alias;
+        if let Some(from) = from {
+            let wanted = from.max(0.0).round() as u32;
+            let places = frame.program.code.labels.get(&wanted).map_or(&[][..], Vec::as_slice);
+            let [at] = places else { return Err(self.no_sequence(f64::from(wanted))) };
+            (frame.at, frame.entry) = (*at, *at);
+        }
         self.push_subprogram(frame)
     }
 

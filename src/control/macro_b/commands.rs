@@ -172,6 +172,8 @@ impl<'c> Runner<'c> {
             match self.role_of(meaning, at, word) {
                 // Words of the call, the jump or the return are not the machine's.
                 Some((_, Some(row))) if row.op.is_flow() => {}
+                // The code is another one by it: the tap of `G84 ,R1`.
+                Some((_, None)) if word.comma && picks_code(self, meaning, word.letter, true) => {}
                 Some((role, row)) => {
                     let value = match role {
                         Role::WorkOffset | Role::OffsetRow => {
@@ -189,7 +191,7 @@ impl<'c> Runner<'c> {
                 }
                 None if flow => {}
                 // The code is another one without it: `G5.1 Q1`.
-                None if picks_code(self, meaning, word.letter) => {}
+                None if picks_code(self, meaning, word.letter, word.comma) => {}
                 // A lathe does nothing of which nobody knows what it does. P beside an M code is its builder's: which spindle.
                 None if self.session.machine.is_lathe()
                     && !(word.letter == 'P' && meaning.codes.iter().any(|code| code.letter == 'M')) =>
@@ -271,7 +273,7 @@ impl<'c> Runner<'c> {
         };
         for code in &meaning.codes {
             if let Some(alias) = code.alias.filter(|_| self.aliases_count()) {
-                return self.call_program(f64::from(alias.program), None, true);
+                return self.call_program(f64::from(alias.program), (None, None), true);
             }
             let Some(row) = self.row(code.row).filter(|row| row.op.is_flow()) else { continue };
             // P of a call is a wait too, where P lasts across codes (docs/lathe.md S10): a whole number of milliseconds.
@@ -285,7 +287,10 @@ impl<'c> Runner<'c> {
                     self.give_back(to).map(|()| Next::Block)
                 }
                 Op::CallProgram => match value(Role::Program) {
-                    Some(program) => self.call_program(program, value(Role::CallCount), false),
+                    Some(program) => {
+                        let from = value(Role::Sequence);
+                        self.call_program(program, (value(Role::CallCount), from), false)
+                    }
                     None => Err(Halt::Error("a call without its program".into())),
                 },
                 Op::CallLocal => match value(Role::Sequence) {
@@ -322,10 +327,16 @@ impl<'c> Runner<'c> {
 }
 
 /// True for a word by which a code of the block is told from others, and which says nothing else: L2 of G10 L2.
-fn picks_code(runner: &Runner<'_>, meaning: &Meaning, letter: char) -> bool {
+fn picks_code(runner: &Runner<'_>, meaning: &Meaning, letter: char, comma: bool) -> bool {
     let rows = meaning.codes.iter().filter_map(|code| runner.row(code.row));
     let mut beside = rows.flat_map(|row| row.code.split_whitespace().skip(1));
-    beside.any(|word| word.starts_with(letter) && word.len() > 1)
+    beside.any(|word| {
+        let of_comma = word.strip_prefix(',');
+        of_comma.is_some() == comma && {
+            let word = of_comma.unwrap_or(word);
+            word.starts_with(letter) && word.len() > 1
+        }
+    })
 }
 
 /// The place of an address among the last values: A at 1.

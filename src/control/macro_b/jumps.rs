@@ -43,7 +43,7 @@ impl Runner<'_> {
         Ok(to)
     }
 
-    fn no_sequence(&self, number: f64) -> Halt {
+    pub fn no_sequence(&self, number: f64) -> Halt {
         let text = format!("N{number} is not in the program");
         Halt::Alarm(Stop::no_label(self.style.alarms.no_sequence, text))
     }

@@ -12,6 +12,7 @@ pub(in crate::legalize) mod modal_calls;
 pub(in crate::legalize) mod modal_off;
 pub(in crate::legalize) mod nesting;
 pub(in crate::legalize) mod outline;
+pub(in crate::legalize) mod parts;
 pub(in crate::legalize) mod repeat_loops;
 pub(in crate::legalize) mod repeats;
 pub(in crate::legalize) mod standing;

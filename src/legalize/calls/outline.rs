@@ -177,7 +177,7 @@ fn sub_name(program: &Program, entry: BlockId) -> ProgramName {
 }
 
 /// A program of some of the blocks, entered at `entry`.
-fn extract(
+pub(super) fn extract(
     program: &Program,
     entry: BlockId,
     body: &BTreeSet<BlockId>,
@@ -210,7 +210,7 @@ fn for_each_jump(kind: &mut TermKind, f: &mut dyn FnMut(&mut BlockId)) {
     }
 }
 
-fn for_each_callee(block: &mut Block, f: &mut dyn FnMut(&mut Callee)) {
+pub(super) fn for_each_callee(block: &mut Block, f: &mut dyn FnMut(&mut Callee)) {
     for stmt in &mut block.stmts {
         if let StmtKind::ModalCall(call) = &mut stmt.kind {
             f(&mut call.callee);

@@ -4,6 +4,7 @@ use super::Pass;
 use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop, top_speed};
+use crate::legalize::calls::parts;
 use crate::legalize::cycles::{
     cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, stored_places,
 };
@@ -22,6 +23,9 @@ pub(super) const READ: &[Pass] = &[
         contour_numbers::run,
     )
     .when(|c, _| contour_numbers::concerns(c)),
+    Pass::rewrites("parts", "parts of programs that calls enter become programs", parts::run)
+        .when(|c, _| c.has(Feature::Call))
+        .adds_programs(),
     Pass::each(
         "skip-runs",
         "blocks with a block skip that follow each other become one way round them",

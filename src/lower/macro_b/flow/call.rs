@@ -1,9 +1,9 @@
 //! Calls: of programs, of parts of this program, of macros with arguments, and the
 //! codes that a machine profile makes call programs.
 
-use crate::canon::{Op, Role};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Alias, CodeMeaning, Question};
+use crate::dialect::{Alias, CodeMeaning, Machine, Question};
 use crate::ir::eval::whole;
 use crate::ir::{BinOp, Call, Callee, Expr, SourceInfo, StmtKind, TermKind};
 use crate::lower::common::otherwise;
@@ -191,21 +191,67 @@ impl<'a> Lowering<'a> {
                     None
                 }
             },
-            (Some(_), Some(_)) => {
-                self.findings
-                    .not_understood(site.span, "a call into the middle of another program is not converted");
-                None
-            }
+            (Some(program), Some(sequence)) => self.part_of_program(&program, &sequence, site.span),
             (None, None) => {
                 self.findings
                     .not_understood(site.span, format!("{} does not say what it calls", flow.row.code));
                 None
             }
         };
+        self.check_beside_call(flow, &parts.rest);
         self.run_first(&parts, site);
         let Some(callee) = callee else { return };
         let level = self.has_own_locals(site);
         self.call(Call { callee, level, arguments: Vec::new(), count }, false, site);
+    }
+
+    /// A program from one of its sequence numbers on: the name of the part that is made of it.
+    fn part_of_program(&mut self, program: &Expr, sequence: &Expr, span: Span) -> Option<Callee> {
+        let number = |value: &Expr| value.constant().and_then(whole).filter(|number| *number > 0);
+        let Some((program, sequence)) = number(program).zip(number(sequence)) else {
+            let what = "the number of the called program, or that of the block at which it starts, is computed: write the numbers";
+            self.findings.not_understood(span, what);
+            return None;
+        };
+        Some(Callee::Program(ProgramName::part(program, sequence)))
+    }
+
+    /// A length or a radius beside a call of a program, without a code that takes it: it may say where the program starts.
+    fn check_beside_call(&mut self, flow: Flow<'a>, rest: &Words<'a>) {
+        let mut coded = false;
+        for (word, _) in rest {
+            let row = self.constant_code(word).and_then(|id| self.codes.get(id)?.row);
+            coded |= row.is_some_and(|row| matches!(row.op.group(), Group::LengthComp | Group::RadiusComp));
+        }
+        let starts = flow.row.words.get("H") == Some(&Role::Sequence);
+        if starts && coded {
+            let what = "H beside this call may be the tool length of the block's other code, or the sequence number at which the \
+                        subprogram starts: give each a block of its own";
+            let span = rest.first().map_or(Span::default(), |(_, span)| *span);
+            return self.findings.not_understood(span, what);
+        }
+        let found = rest.iter().find(|(word, _)| matches!(word.letter, 'H' | 'D') && !word.comma);
+        let Some(&(word, span)) = found.filter(|_| !coded) else { return };
+        if self.control.machine() != Machine::Mill {
+            return;
+        }
+        let (letter, code) = (word.letter, &flow.row.code);
+        let what = format!("{letter} beside {code} is taken as an offset number that acts before the call");
+        let told = Diagnostic::new(
+            Code::Conditional,
+            span,
+            match letter {
+                'H' => format!(
+                    "{what}; on some controls it is the sequence number at which the subprogram starts"
+                ),
+                _ => format!("{what}; no source says it"),
+            },
+        );
+        let help = "if it is, say 'call_start' under [settings] of the machine's profile; else give it a block of its own before the call";
+        self.findings.add(match letter {
+            'H' => told.with_help(help).lacking("setting.call_start"),
+            _ => told.with_help("give it a block of its own before the call"),
+        });
     }
 
     /// On controls that have it, `M98 P68003` calls O8003 six times: digits before the last four

@@ -1,0 +1,121 @@
+//! Calls of a program from one of its sequence numbers on.
+//!
+//! Law: such a call runs what is reachable from that block; a program of copies of those blocks does the same and returns to the same
+//! place. It is made once, whoever calls it. Side conditions: the library has the program, and one block of it has the number. Blocks
+//! that several parts reach are copied, so an operator who edits one must edit all. Counter-example: a number that stands twice.
+
+use super::outline::{extract, for_each_callee};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{BlockId, Callee, Comment, Module, Program, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::legalize::{Context, calls_of, reachable, span_of};
+use crate::syntax::{Label, ProgramName};
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Makes the parts that are called, and refuses calls of those that cannot be made.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let mut wanted: BTreeMap<(u32, u32), Vec<(usize, Span)>> = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            for call in calls_of(block) {
+                if let Callee::Program(name) = &call.callee
+                    && let Some(part) = name.as_part()
+                {
+                    wanted.entry(part).or_default().push((index, span_of(block, call)));
+                }
+            }
+        }
+    }
+    for ((number, sequence), calls) in wanted {
+        match part(module, number, sequence) {
+            Ok((parent, program)) => {
+                module.programs.push(program);
+                context.origins.push(context.origins.get(parent).copied().unwrap_or_default());
+            }
+            Err(why) => {
+                for (index, span) in calls {
+                    let finding = Diagnostic::new(Code::NoEquivalent, span, why.clone());
+                    context.add(index, finding);
+                    withdraw(module, index, span);
+                }
+            }
+        }
+    }
+}
+
+/// The part of a program from a sequence number on, and the place of the program; why not, where it cannot be made.
+fn part(module: &Module, number: u32, sequence: u32) -> Result<(usize, Program), String> {
+    let name = ProgramName::Number(number);
+    let short = name.short().into_owned();
+    let mut found =
+        module.programs.iter().enumerate().filter(|(_, program)| program.name.as_ref() == Some(&name));
+    let Some((parent, program)) = found.next() else {
+        return Err(format!(
+            "{short} is called from N{sequence} on, and is not in the library: add its file"
+        ));
+    };
+    let has = |id: &BlockId| {
+        let labels = program.block(*id).into_iter().flat_map(|block| &block.labels);
+        labels.into_iter().any(|label| *label == Label::Number(sequence))
+    };
+    let places: Vec<BlockId> = program.ids().filter(has).collect();
+    let entry = match places.as_slice() {
+        [entry] => *entry,
+        [] => {
+            return Err(format!("{short} is called from N{sequence} on, and no block of it has that number"));
+        }
+        _ => {
+            return Err(format!("{short} is called from N{sequence} on, and that number stands twice in it"));
+        }
+    };
+    let body = body(program, entry);
+    let comment = Comment { text: format!("{short} FROM N{sequence}"), leading: false };
+    let site = SourceInfo { comments: std::iter::once(comment).collect(), ..SourceInfo::default() };
+    let name = ProgramName::part(number, sequence);
+    let mut made = extract(program, entry, &body, Some(name), site);
+    let shift = u32::from(body.first() != Some(&entry));
+    let place: BTreeMap<BlockId, BlockId> = body.iter().copied().zip((shift..).map(BlockId)).collect();
+    for block in &mut made.blocks {
+        for_each_callee(block, &mut |callee| {
+            if let Callee::Block(to) = callee {
+                *to = place.get(to).copied().unwrap_or(*to);
+            }
+        });
+    }
+    Ok((parent, made))
+}
+
+/// The blocks that a run from one of them comes to, those of its own subroutines too.
+fn body(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
+    let mut body = BTreeSet::new();
+    let mut open = vec![entry];
+    while let Some(next) = open.pop() {
+        for id in reachable(program, next) {
+            if !body.insert(id) {
+                continue;
+            }
+            let calls = program.block(id).into_iter().flat_map(calls_of);
+            open.extend(calls.filter_map(|call| match call.callee {
+                Callee::Block(entry) => Some(entry),
+                _ => None,
+            }));
+        }
+    }
+    body
+}
+
+/// Puts what is not converted in the place of a call.
+fn withdraw(module: &mut Module, index: usize, span: Span) {
+    let Some(program) = module.programs.get_mut(index) else { return };
+    for block in &mut program.blocks {
+        let TermKind::Call { call, next } = &block.term.kind else { continue };
+        let is_part = matches!(&call.callee, Callee::Program(name) if name.as_part().is_some());
+        if is_part && block.term.site.span == span {
+            let next = *next;
+            let site = std::mem::take(&mut block.term.site);
+            let kind = StmtKind::not_converted(Code::NoEquivalent.number());
+            block.stmts.push(Stmt { kind, site });
+            block.term.kind = TermKind::Jump(next);
+        }
+    }
+}
