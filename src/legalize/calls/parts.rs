@@ -2,11 +2,13 @@
 //!
 //! Law: such a call runs what is reachable from that block; a program of copies of those blocks does the same and returns to the same
 //! place. It is made once, whoever calls it. Side conditions: the library has the program, and one block of it has the number. Blocks
-//! that several parts reach are copied, so an operator who edits one must edit all. Counter-example: a number that stands twice.
+//! that several parts reach are copied, so an operator who edits one must edit all; what only parts reach stands in them alone. Counter-example: a number that stands twice.
 
 use super::outline::{extract, for_each_callee};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Callee, Comment, Module, Program, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{
+    Block, BlockId, Call, Callee, Comment, Module, Program, SourceInfo, Stmt, StmtKind, TermKind,
+};
 use crate::legalize::{Context, calls_of, reachable, span_of};
 use crate::syntax::{Label, ProgramName};
 use crate::text::Span;
@@ -26,9 +28,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+    let mut bodies: BTreeMap<usize, BTreeSet<BlockId>> = BTreeMap::new();
     for ((number, sequence), calls) in wanted {
         match part(module, number, sequence) {
-            Ok((parent, program)) => {
+            Ok((parent, body, program)) => {
+                bodies.entry(parent).or_default().extend(body);
                 module.programs.push(program);
                 context.origins.push(context.origins.get(parent).copied().unwrap_or_default());
             }
@@ -41,10 +45,59 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+    for (parent, body) in bodies {
+        shorten(module, parent, &body);
+    }
 }
 
-/// The part of a program from a sequence number on, and the place of the program; why not, where it cannot be made.
-fn part(module: &Module, number: u32, sequence: u32) -> Result<(usize, Program), String> {
+/// Leaves out of a program what only its parts reach, unless a return to a sequence number may come there.
+fn shorten(module: &mut Module, parent: usize, parts: &BTreeSet<BlockId>) {
+    let comes_back = |block: &Block| matches!(block.term.kind, TermKind::Return { to: Some(_) });
+    let calls = |call: &&Call| !matches!(call.callee, Callee::Block(_));
+    let leaves = |program: &Program| program.blocks.iter().flat_map(calls_of).any(|call| calls(&call));
+    if module.programs.get(parent).is_none_or(leaves)
+        && module.programs.iter().flat_map(|program| &program.blocks).any(comes_back)
+    {
+        return;
+    }
+    let Some(program) = module.programs.get_mut(parent) else { return };
+    let main = body(program, BlockId(0));
+    let keep: BTreeSet<BlockId> =
+        program.ids().filter(|id| main.contains(id) || !parts.contains(id)).collect();
+    let closed = keep.iter().flat_map(|id| body(program, *id)).all(|id| keep.contains(&id));
+    if !closed || keep.len() == program.blocks.len() {
+        return;
+    }
+    let (name, site, held) =
+        (program.name.take(), std::mem::take(&mut program.site), std::mem::take(&mut program.held));
+    let mut short = cut(program, BlockId(0), &keep, name, site);
+    short.held = held;
+    *program = short;
+}
+
+/// A program of some of its blocks, the calls of its own subroutines among them.
+fn cut(
+    program: &Program,
+    entry: BlockId,
+    body: &BTreeSet<BlockId>,
+    name: Option<ProgramName>,
+    site: SourceInfo,
+) -> Program {
+    let mut made = extract(program, entry, body, name, site);
+    let shift = u32::from(body.first() != Some(&entry));
+    let place: BTreeMap<BlockId, BlockId> = body.iter().copied().zip((shift..).map(BlockId)).collect();
+    for block in &mut made.blocks {
+        for_each_callee(block, &mut |callee| {
+            if let Callee::Block(to) = callee {
+                *to = place.get(to).copied().unwrap_or(*to);
+            }
+        });
+    }
+    made
+}
+
+/// The part of a program from a sequence number on, its blocks there, and the place of the program; why not, where it cannot be made.
+fn part(module: &Module, number: u32, sequence: u32) -> Result<(usize, BTreeSet<BlockId>, Program), String> {
     let name = ProgramName::Number(number);
     let short = name.short().into_owned();
     let mut found =
@@ -72,17 +125,8 @@ fn part(module: &Module, number: u32, sequence: u32) -> Result<(usize, Program),
     let comment = Comment { text: format!("{short} FROM N{sequence}"), leading: false };
     let site = SourceInfo { comments: std::iter::once(comment).collect(), ..SourceInfo::default() };
     let name = ProgramName::part(number, sequence);
-    let mut made = extract(program, entry, &body, Some(name), site);
-    let shift = u32::from(body.first() != Some(&entry));
-    let place: BTreeMap<BlockId, BlockId> = body.iter().copied().zip((shift..).map(BlockId)).collect();
-    for block in &mut made.blocks {
-        for_each_callee(block, &mut |callee| {
-            if let Callee::Block(to) = callee {
-                *to = place.get(to).copied().unwrap_or(*to);
-            }
-        });
-    }
-    Ok((parent, made))
+    let made = cut(program, entry, &body, Some(name), site);
+    Ok((parent, body, made))
 }
 
 /// The blocks that a run from one of them comes to, those of its own subroutines too.

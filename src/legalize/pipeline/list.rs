@@ -8,8 +8,8 @@ use super::{Group, Pass};
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
 use crate::legalize::calls::{
-    chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, parts, repeat_loops,
-    repeats, text_returns,
+    chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
+    text_returns,
 };
 use crate::legalize::codes::{
     act_speeds, acts, beside_moves, by_number, c_axis, code_chains, forbidden, machine_codes, missing,
