@@ -228,6 +228,8 @@ super::vocabulary! {
         SpeedLimit = "speed.limit",
         /// Ratio of cam wrapping.
         WrapRatio = "wrap.ratio",
+        /// Which mode of quality a code switches, by a number that only the tables of one control and its relatives share.
+        Quality = "path.quality.mode",
         /// A value that a machine builder's code takes as it is.
         Builder = "builder",
         /// The number of the name that the profile gives to a builder's code.

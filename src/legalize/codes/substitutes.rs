@@ -2,12 +2,12 @@
 //!
 //! Each row is a condition that a reviewer must accept: another coolant, corners that are rounded or stopped at
 //! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here. Modes of quality are
-//! left out with a note: both controls follow the path within the tolerance that they are set to.
+//! left out with a note, unless the target has the same one: both controls follow the path within the tolerance that they are set to.
 
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Nc, NcItem, Program, StmtKind};
+use crate::ir::{Expr, Nc, NcItem, Program, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::emptied::drop_emptied;
@@ -82,6 +82,12 @@ fn drop_quality(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>
     if !nc.items.iter().any(is_mode) {
         return false;
     }
+    // The same mode on a relative of the control: it is written there.
+    let mode = nc.word(Role::Quality).and_then(Expr::constant);
+    let operands: BTreeMap<Role, f64> = mode.map(|mode| (Role::Quality, mode)).into_iter().collect();
+    if mode.is_some() && context.target.code_for(Op::PathQuality, &operands).is_some() {
+        return false;
+    }
     let of_arc = |role: Role| matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK | Role::ArcRadius);
     let axes = nc.names_axis();
     if axes || nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if of_arc(*role))) {
@@ -97,7 +103,7 @@ fn drop_quality(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
         return false;
     }
-    nc.items.retain(|item| !is_mode(item) && !matches!(item, NcItem::Word(Role::Builder, _)));
+    nc.items.retain(|item| !is_mode(item) && !matches!(item, NcItem::Word(Role::Builder | Role::Quality, _)));
     let what = "a mode of how smoothly or how fast a path is followed is dropped: the target follows it as it is set";
     let told = Diagnostic::new(Code::QualityDropped, span, what);
     context.add_once(index, what, told.assuming(Predicate::Substitute(Op::PathQuality)));
