@@ -105,8 +105,11 @@ impl Control {
             let says = |sets: Option<&BTreeMap<String, String>>| sets.is_some_and(|s| s.contains_key(fact));
             if open { answers.any(says) } else { row.origin.is_settled() && answers.all(says) }
         };
-        let mut settings = self.dialect().settings.iter().filter(|row| !row.values.is_empty());
-        match self.open_setting(fact).or_else(|| settings.find(sets)) {
+        // A relative of another maker has no parameters of these numbers.
+        let own = self.setting("setting.own_parameters") != Some("no");
+        let has = |row: &&Setting| own || !row.name.starts_with("parameter.");
+        let mut settings = self.dialect().settings.iter().filter(|row| !row.values.is_empty()).filter(has);
+        match self.open_setting(fact).filter(has).or_else(|| settings.find(sets)) {
             Some(row) => {
                 let (section, name) = match row.name.strip_prefix("parameter.") {
                     Some(number) => ("parameters", number),
@@ -114,7 +117,7 @@ impl Control {
                 };
                 Settled::Setting { section, name: name.to_owned(), values: row.values.clone() }
             }
-            None if row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {
+            None if !own || row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {
                 Some(question) if !question.answers().written(&[]).is_empty() => Settled::Answer {
                     question: question.to_string(),
                     answers: question.answers().written(row.map_or(&[], |row| &row.one_of)),

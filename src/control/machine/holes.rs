@@ -6,7 +6,7 @@ use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
 
-/// Drills round the place where the tool stands, or the centre that the block names, or from there on along a line; the tool stays at
+/// Drills round the place where the tool stands, or the centre that the block names, or from there on along a line, whose first hole the block may name; the tool stays at
 /// the last hole.
 pub(super) fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     if machine.cycle.is_none() {
@@ -22,7 +22,7 @@ pub(super) fn run(machine: &mut Machine, op: Op, command: &Command, trace: &mut 
     };
     let (first, second, along) = machine.plane.axes();
     let axes = [Role::X, Role::Y].map(|role| command.word(role));
-    let centre = !line && !machine.incremental && command.word(Role::Z).is_none();
+    let centre = !machine.incremental && command.word(Role::Z).is_none();
     if (first, second) != (0, 1) || command.has_axes() && !(centre && axes.iter().any(Option::is_some)) {
         return Err(Stop::unnamed(
             "holes in a pattern that does not begin at the tool in the plane of X and Y",

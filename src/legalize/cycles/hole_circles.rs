@@ -2,7 +2,7 @@
 //!
 //! Law: such a block runs the drilling cycle in force at places round the place where the tool stands, or from there on along a line; so
 //! do blocks with these places, written in absolute numbers and rounded to the least increment. Side conditions: all words are numbers, the tool's
-//! place is known from absolute words before, the same on every way, or the block names the centre of a circle, the plane is that of X and Y (or no block that may come before names another),
+//! place is known from absolute words before, the same on every way, or the block names the centre of a circle or the first hole of a line, the plane is that of X and Y (or no block that may come before names another),
 //! coordinates are absolute, and the block has nothing else. Counter-example: `G70 I5. J15. L12` after `G28 X0 Y0`, which is refused.
 
 use crate::canon::{Group, Op, Role};
@@ -17,7 +17,7 @@ use crate::legalize::moves::increments::parts_of_unit;
 use crate::legalize::moves::short_arcs::stands;
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// More holes than this are a slip.
 const MOST: f64 = 1000.0;
@@ -60,7 +60,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 changed = true;
                 match holes(&stmt, &state, place, &rules) {
                     Ok(holes) => {
-                        if stmt.kind.nc().is_some_and(Nc::names_axis) {
+                        if stmt.kind.nc().is_some_and(|nc| nc.names_axis() && has_centre(nc)) {
                             let told = Diagnostic::new(Code::Conditional, stmt.site.span, CENTRE);
                             context.add_once(index, CENTRE, told);
                         }
@@ -181,12 +181,14 @@ impl Place {
 /// The places of the holes; why not, where they cannot be told.
 fn holes(stmt: &Stmt, state: &Modal, place: Place, rules: &Rules<'_>) -> Result<Vec<[f64; 2]>, &'static str> {
     let StmtKind::Nc(nc) = &stmt.kind else { return Ok(Vec::new()) };
+    let line = rules.source.code_for(Op::HolesLine, &BTreeMap::new());
+    let names_first = line.is_some_and(|row| row.takes(Role::X) && row.takes(Role::Y));
     let own = |item: &NcItem| match item {
         NcItem::Op(op) => is_pattern(*op),
         NcItem::Word(role, _) => {
             use Role::*;
             matches!(role, HolesRadius | HolesApart | HolesStart | HolesStep | HolesCount)
-                || matches!(role, X | Y) && has_centre(nc)
+                || matches!(role, X | Y) && (has_centre(nc) || names_first)
         }
         NcItem::Code(..) => false,
     };
@@ -244,7 +246,7 @@ fn holes(stmt: &Stmt, state: &Modal, place: Place, rules: &Rules<'_>) -> Result<
     Ok((0..count as u32).map(hole).collect())
 }
 
-/// True for holes round a centre, which the block may name.
+/// True for holes round a centre, which the block may name; on a line it may name the first hole where its code has the words for it.
 fn has_centre(nc: &Nc) -> bool {
     nc.ops().any(|op| matches!(op, Op::HolesCircle | Op::HolesArc))
 }

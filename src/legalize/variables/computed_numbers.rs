@@ -292,6 +292,17 @@ impl Finding {
     }
 
     /// What is told of it, where the numbers in `safe` mean the same; `hit` where registers were taken among them.
+    /// Why a number is no variable for programs on the target, or is another one.
+    fn why_other(&self, context: &Context<'_>, number: u32) -> String {
+        let spelt = context.source.names().numbered.clone().unwrap_or_default();
+        if context.target.is_reserved(&spelt, number) {
+            return "'reserved' of the target's profile keeps from programs: take it out of that list if nothing on the machine \
+                    uses it, or give the programs other numbers"
+                .to_owned();
+        }
+        format!("is another variable on {}", context.target.dialect().title)
+    }
+
     fn told(&self, context: &Context<'_>, safe: &analysis::Numbers, hit: bool) -> (Code, String) {
         let title = &context.target.dialect().title;
         match *self {
@@ -325,9 +336,9 @@ impl Finding {
             Finding::Other(number) => (
                 Code::NoEquivalent,
                 format!(
-                    "the number of a variable is computed, and it may be or start from {}, which is \
-                     another variable on {title}",
-                    named(context.source, number.into())
+                    "the number of a variable is computed, and it may be or start from {}, which {}",
+                    named(context.source, number.into()),
+                    self.why_other(context, number)
                 ),
             ),
             Finding::Any if safe.last().is_none() => (

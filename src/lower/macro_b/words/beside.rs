@@ -2,7 +2,7 @@
 
 use super::roles::BlockCodes;
 use crate::canon::{Op, Role};
-use crate::dialect::CodeMeaning;
+use crate::dialect::{CodeMeaning, Without};
 use crate::lower::common::may_take;
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::parts::Words;
@@ -15,6 +15,19 @@ impl<'a> Lowering<'a> {
         let is_axis = |letter, comma| self.codes.letter(letter, comma).is_some_and(|row| row.role.is_axis());
         self.moves = codes.iter().any(|(_, row)| told(row))
             && words.iter().any(|(word, _)| is_axis(word.letter, word.comma));
+    }
+
+    /// True where a builder's G code is the only code of its block and an alarm takes its place: no word of it matters, for the run ends there.
+    pub(super) fn stops_with_alarm(&self, codes: &BlockCodes<'a>) -> bool {
+        let [(_, row)] = codes.as_slice() else { return false };
+        let site = self.control.profile().site.iter().find(|site| site.code == row.code);
+        row.code.starts_with('G')
+            && site.is_some_and(|site| {
+                site.without == Some(Without::Alarm)
+                    && site.name.is_none()
+                    && site.target.is_none()
+                    && site.words.is_empty()
+            })
     }
 
     /// True, and an error, for a word of the block or the mode in force beside a code of which the profile says what becomes

@@ -65,6 +65,7 @@ impl<'a> Lowering<'a> {
         }
         let mut nc = Nc { items: Vec::with_capacity(words.len() + 1) };
         let mut seen = Seen::default();
+        let stops = self.stops_with_alarm(&codes);
         let mut next = codes.iter();
         for &(word, span) in words {
             if matches!(word.letter, 'G' | 'M') && !word.comma {
@@ -77,7 +78,7 @@ impl<'a> Lowering<'a> {
                     }
                     None => self.computed_code(word, span, &mut nc, &mut seen),
                 }
-            } else if !belongs_to_code(word, &codes) {
+            } else if !stops && !belongs_to_code(word, &codes) {
                 self.word(word, span, &codes, &mut nc, &mut seen);
             }
         }
