@@ -1,11 +1,12 @@
 //! Words beside a drilling cycle, or under one, that would be something else in another block.
 
 use super::roles::BlockCodes;
-use crate::canon::Role;
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::CodeMeaning;
+use crate::dialect::{CodeMeaning, Machine};
 use crate::ir::Nc;
 use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::parts::Words;
 use crate::syntax::Word;
 use crate::text::Span;
 
@@ -45,6 +46,39 @@ impl<'a> Lowering<'a> {
             None => told.with_help("take it out, or end the cycle (G80) before the cut"),
         });
         true
+    }
+
+    /// Tells of codes beside the code of a drilling cycle that take the axis words of its block too, and of one that moves.
+    pub(super) fn check_codes_of_cycle(&mut self, words: &Words<'a>, codes: &BlockCodes<'a>, span: Span) {
+        let Some((_, cycle)) = codes.iter().find(|(_, row)| row.op.is_cycle()) else { return };
+        let is_axis = |word: &Word| {
+            self.codes.letter(word.letter, word.comma).is_some_and(|usual| usual.role.is_axis())
+        };
+        if self.control.machine() != Machine::Mill || !words.iter().any(|(word, _)| is_axis(word)) {
+            return;
+        }
+        let own = |op: Op| {
+            op.takes_axes()
+                || op.is_return()
+                || matches!(op, Op::MachineOnce | Op::Home | Op::Probe | Op::ProbeOther)
+        };
+        let head = |row: &CodeMeaning| row.code.split(' ').next().unwrap_or_default().to_owned();
+        let cycle = head(cycle);
+        if let Some((_, row)) = codes.iter().find(|(_, row)| own(row.op)) {
+            let what = format!(
+                "{} and {cycle} stand in one block, and both take its axis words: it is not known which of them gets them",
+                head(row)
+            );
+            let told = Diagnostic::new(Code::NotUnderstood, span, what);
+            self.findings.add(told.with_help("give each a block of its own"));
+        } else if let Some((_, row)) = codes.iter().find(|(_, row)| row.op.group() == Group::Motion) {
+            let what = format!(
+                "{} and {cycle} stand in one block: it is taken to drill; some controls end the cycle by such a code, and move",
+                head(row)
+            );
+            let told = Diagnostic::new(Code::Conditional, span, what);
+            self.findings.add(told.with_help("leave out the code that does not count"));
+        }
     }
 
     /// An error for a tap of this block whose code takes a lead, and which is told none.

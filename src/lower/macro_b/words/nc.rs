@@ -56,6 +56,7 @@ impl<'a> Lowering<'a> {
             return self.builder.push(StmtKind::Comment, site.clone());
         };
         self.check_machine(words, &codes);
+        self.check_codes_of_cycle(words, &codes, site.span);
         self.note_axes(words, &codes);
         if let Some((_, row)) = codes.iter().rev().find(|(_, row)| row.op.group() == Group::FeedMode) {
             self.inverse = row.op == Op::FeedInverse;
