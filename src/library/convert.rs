@@ -119,6 +119,7 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
         }
         refused_calls::report(&made.links, &mut made.found);
     }
+    super::names::tell_files_without_number(inputs, &mut made.found);
     let mut texts = Vec::with_capacity(files.len());
     let mut reports: Vec<ProgramReport> = Vec::with_capacity(written.len());
     let mut parts: Vec<Vec<Emitted>> = made.parts;

@@ -95,6 +95,27 @@ pub fn report_duplicates(module: &Module, inputs: &[Input], found: &mut [Vec<Dia
     }
 }
 
+/// Says of a call that leaves the library where a file has the number in its name, and no program in its text.
+pub(super) fn tell_files_without_number(inputs: &[Input], found: &mut [Vec<Diagnostic>]) {
+    let number = |input: &Input| {
+        let name = input.name.rsplit(['/', '\\']).next()?;
+        ProgramName::digits(name.split('.').next()?).parse::<u32>().ok()
+    };
+    let mut files: BTreeMap<u32, &str> = BTreeMap::new();
+    files.extend(inputs.iter().filter_map(|input| Some((number(input)?, input.name.as_str()))));
+    let outside = |finding: &&mut Diagnostic| finding.code == Code::OutsideLibrary;
+    for finding in found.iter_mut().flatten().filter(outside) {
+        let Some((name, _)) = finding.message.split_once(" is not in the library") else { continue };
+        let Some(file) = ProgramName::digits(name).parse().ok().and_then(|number| files.get(&number)) else {
+            continue;
+        };
+        let help = format!(
+            "the file {file} has that number in its name, and no program of that number in its text: write {name} as its first line"
+        );
+        finding.help = Some(help.into());
+    }
+}
+
 /// True where programs begin in the same state on both controls, so that nothing is added to their head.
 pub(super) fn begin_alike(source: &Control, target: &Control) -> bool {
     let same = |question: Question| {

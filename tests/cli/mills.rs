@@ -161,3 +161,24 @@ fn a_saved_code_begins_no_compensation() {
     assert!(is_once("4001"));
     assert!(!is_once("4007"));
 }
+
+/// The number stands in the name of the file alone: what the caller is told is what to write where.
+#[test]
+fn a_program_whose_file_alone_has_its_number_is_found_by_the_reader() {
+    let main = format!("O8000\n{HEAD}\nG0 X1.\nM98 P8001\nM30\n");
+    let shop = Shop::with(&[("p/a.nc", main.as_str()), ("p/O8001", "G0 X2.\nM99\n"), ("f.toml", FANUC)]);
+    let run = shop.run("convert p --from fanuc --to haas --machine f.toml --out out");
+    let said = format!("{}{}", run.out, run.err);
+    assert!(said.contains("MG0601") && said.contains("write O8001 as its first line"), "{said}");
+}
+
+/// Behaviours of a relative are asked by name: it has no parameters of these numbers.
+#[test]
+fn a_relative_of_another_maker_is_asked_for_no_parameters() {
+    let program = format!("O1\n{HEAD}\nG43 H1\nG0 X1.\nG41 D1 X2.\nG40 X3.\nM30\n");
+    let said = |settings: &str| convert("--from fanuc --to haas", &program, ("", settings));
+    let own = said("");
+    assert!(own.contains("5006.6"), "{own}");
+    let other = said("[settings]\nown_parameters = \"no\"\n");
+    assert!(!other.contains("5006.6 =") && other.contains("\"length.moves\" = "), "{other}");
+}
