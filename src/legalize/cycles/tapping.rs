@@ -28,6 +28,8 @@ const ONLY: &str = "a tapping cycle by its lead, and its speed is not known here
 
 const UNDER: &str = "a speed or a lead under a tapping cycle that an earlier block told the other: write the cycle again with both";
 
+const SKIPPED: &str = "a tap by its lead with a block skip: which feed is in force after it hangs on the switch. Write it without the skip";
+
 const IN_MINUTES: &str = "the cycle's feed is its speed times its lead, in feed per minute: write G94 before it, if that is in force here";
 
 const STAYS: &str =
@@ -71,6 +73,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
                     let faster = nc.word(Role::Speed).is_some()
                         && (by_lead || leads && (before != speed || speed == Speed::Unknown));
+                    if skipped && taps(nc) && !by_lead {
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, SKIPPED));
+                    }
                     if nc.ops().any(Op::is_tap) {
                         told = Told::of(nc).filter(|_| !skipped);
                         leads = nc.word(Role::Lead).is_some() || skipped && leads;

@@ -194,6 +194,12 @@ impl Kept {
                     true => (Feed::Held { tapping }, Does::Reads),
                     false => (Feed::Lost { tapping }, Does::Nothing),
                 };
+            } else if nc.word(Role::Lead).is_none() && !skipped {
+                // A tap by feed has its own, or that from before.
+                if *feed != Feed::Same && nc.word(Role::Feed).is_none() {
+                    does = known.map_or(Does::Fails, Does::Says);
+                }
+                *feed = Feed::Same;
             }
         } else if nc.word(Role::Feed).is_some() {
             *feed = match *feed {

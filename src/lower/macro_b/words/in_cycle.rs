@@ -3,8 +3,8 @@
 use super::roles::BlockCodes;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{CodeMeaning, Machine};
-use crate::ir::Nc;
+use crate::dialect::{CodeMeaning, Machine, beside_letter};
+use crate::ir::{Expr, Nc};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::parts::Words;
 use crate::syntax::Word;
@@ -81,12 +81,31 @@ impl<'a> Lowering<'a> {
         }
     }
 
+    /// An error for a word that tells which code this is, and stands twice: `,R1 ,R0`.
+    pub(super) fn check_told_once(&mut self, words: &Words<'a>, codes: &BlockCodes<'a>) {
+        for (_, row) in codes.iter().filter(|(_, row)| row.code.contains(' ')) {
+            for beside in row.beside().into_iter().flatten().filter(|beside| beside.thousandths.is_some()) {
+                let is_it = |word: &Word| beside_letter(word.letter, word.comma) == beside.letter;
+                if let Some((word, span)) = words.iter().filter(|(word, _)| is_it(word)).nth(1) {
+                    let what = format!(
+                        "{} is in this block twice, and says what {} does",
+                        word.letter,
+                        row.code.split(' ').next().unwrap_or_default()
+                    );
+                    self.findings.not_understood(*span, what);
+                }
+            }
+        }
+    }
+
     /// An error for a tap of this block whose code takes a lead, and which is told none.
     pub(super) fn check_lead(&mut self, nc: &Nc, codes: &BlockCodes<'a>, span: Span) {
         let told = |nc: &Nc| nc.word(Role::Lead).is_some() || nc.word(Role::ThreadsPerInch).is_some();
         let by_lead = codes.iter().any(|(_, row)| row.op.is_tap() && row.words.get("F") == Some(&Role::Lead));
         if by_lead && !told(nc) {
             self.findings.not_understood(span, NO_LEAD);
+        } else if by_lead && nc.word(Role::Lead).and_then(Expr::constant).is_some_and(|lead| lead <= 0.0) {
+            self.findings.not_understood(span, "the lead of a tap is a length above 0");
         }
     }
 }

@@ -57,6 +57,7 @@ impl<'a> Lowering<'a> {
         };
         self.check_machine(words, &codes);
         self.check_codes_of_cycle(words, &codes, site.span);
+        self.check_told_once(words, &codes);
         self.note_axes(words, &codes);
         if let Some((_, row)) = codes.iter().rev().find(|(_, row)| row.op.group() == Group::FeedMode) {
             self.inverse = row.op == Op::FeedInverse;

@@ -282,7 +282,10 @@ impl<'a> Lowering<'a> {
         let rows = || self.control.dialect().codes.iter().filter(|row| row.op.is_cycle());
         let others =
             rows().any(|other| matches!(explicit(other, word), Some(Role::CycleDwell | Role::CycleQ)));
-        (others && !word.comma && self.control.machine() == Machine::Mill).then_some(row.code.as_str())
+        // How far a bar goes off the wall is not to be lost.
+        let shifts = matches!(row.op, Op::CycleFineBore | Op::CycleBackBore) && word.letter == 'Q';
+        let idle = others && !shifts && !word.comma && self.control.machine() == Machine::Mill;
+        idle.then_some(row.code.as_str())
     }
 
     /// Signs of a lathe program that a mill's table would read as something else: `G50 S3000`,
