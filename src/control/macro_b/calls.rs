@@ -150,6 +150,9 @@ impl<'c> Runner<'c> {
             let wanted = from.max(0.0).round() as u32;
             let places = frame.program.code.labels.get(&wanted).map_or(&[][..], Vec::as_slice);
             let [at] = places else { return Err(self.no_sequence(f64::from(wanted))) };
+            if frame.program.code.loop_of.get(*at).copied().flatten().is_some() {
+                self.session.trace.doubt("machine:jump.into.loop");
+            }
             (frame.at, frame.entry) = (*at, *at);
         }
         self.push_subprogram(frame)
