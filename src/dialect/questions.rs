@@ -80,6 +80,7 @@ impl Question {
                 | Self::PowerOffValues
                 | Self::StandingResults
                 | Self::TapDwell
+                | Self::WorkPlaces
         )
     }
 
@@ -301,7 +302,8 @@ questions! {
     ReferenceLength "reference.length" OneOf(&["kept", "cancelled", "cancelled.along", "unknown"]), "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves", if "op:reference.return";
     StandingResults "standing.results" OneOf(&["same", "other", "unknown"]), "whether programs that stand in this machine (probing macros, say) take work offsets by the numbers that they are called with (S101), and put their results into the variables that the programs read", if "said";
     LengthOffZero "length.off.zero" OneOf(&["home", "offset", "unknown"]), "where a rapid move to Z0 without a tool length goes: home, since work offsets have Z 0 and lengths are measured from there, or to the zero of the work offset", if "said";
-    MachinePlaces "machine.places" OneOf(&["same", "home", "other", "unknown"]), "whether the places in machine coordinates that the programs name (moves to such a place, and work offsets that they write as numbers) are right on this machine too, or are those of another machine; home if zero is meant as the home of each machine, and other places are those of another", if "said";
+    MachinePlaces "machine.places" OneOf(&["same", "home", "other", "unknown"]), "whether the places in machine coordinates that the programs move to are right on this machine too, or are those of another machine; home if zero is meant as the home of each machine, and other places are those of another", if "said";
+    WorkPlaces "work.places" OneOf(&["same", "other", "unknown"]), "whether the work offsets that the programs write as numbers are right on this machine too, or are those of another machine", if "said";
     MachineMoveRapid "machine.move.rapid" YES, "a move in machine coordinates is a rapid, whatever interpolation is in force", if "said";
     UnitsAgree "units.agree" YES, "a code for another unit than the control is set to is an alarm", if "said";
     MachineUnderIncremental "machine.under.incremental" OneOf(&["place", "increments", "ignored", "unknown"]), "what the words of a move in machine coordinates are under G91: places as under G90, increments, or nothing, since the code is ignored", if "said";

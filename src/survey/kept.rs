@@ -1,6 +1,6 @@
 //! Questions that an earlier survey of another library left in a profile: two old machines may go to one new one.
 
-use super::filled::ASKS;
+use super::filled::{ASKS, TELLS};
 use std::collections::BTreeMap;
 
 /// The sections whose questions stay.
@@ -28,6 +28,17 @@ pub(super) fn others(old: &str, is_here: &dyn Fn(&str) -> bool, asked: &mut BTre
             lines.push_str(trimmed);
             lines.push('\n');
         }
+    }
+    tell_unseen(asked);
+}
+
+/// What is told of facts that no page of a machine shows.
+const UNSEEN: &str = "No page of the machine shows these. Leave them if you do not know them; take the sign away from what you tried.";
+
+/// Puts that before them.
+fn tell_unseen(asked: &mut BTreeMap<&'static str, String>) {
+    if let Some(lines) = asked.get_mut("confirm") {
+        lines.insert_str(0, &format!("{TELLS} {UNSEEN}\n"));
     }
 }
 
@@ -68,7 +79,10 @@ confirm = [
         let mut asked =
             BTreeMap::from([("behaviours", "#? \"change.ends\" = true # what (B.NC:9)\n".to_owned())]);
         others(old, &|file| file == "B.NC", &mut asked);
-        assert_eq!(asked["confirm"].trim_end(), r#"#? "code:M60", # a brake (2 programs: A.NC:1, A.NC:7)"#);
+        assert_eq!(
+            asked["confirm"].lines().nth(1).unwrap(),
+            r#"#? "code:M60", # a brake (2 programs: A.NC:1, A.NC:7)"#
+        );
         let kept = asked["behaviours"].lines().nth(1);
         assert_eq!(kept, Some(r#"#? "rotary.way" = "turns" # how (A.NC:3)"#));
         assert!(!asked.contains_key("start"));

@@ -14,28 +14,32 @@ use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use std::collections::HashMap;
 
-const QUESTION: Question = Question::MachinePlaces;
+/// What is asked of moves to such places, and of work offsets that are written as numbers.
+const MOVES: Question = Question::MachinePlaces;
+const OFFSETS: Question = Question::WorkPlaces;
 
 /// True if a program may name such a place, between machines of which nobody says that they have the same ones.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let names = [Op::MachineOnce, Op::ShiftCancel, Op::WriteWork].iter().any(|op| features.op(*op));
     (names || features.has(Feature::System))
         && !context.source.is_same_machine(context.target)
-        && context.target.behaviour(QUESTION).is_none_or(|row| row.value != "same")
+        && [MOVES, OFFSETS]
+            .iter()
+            .any(|question| context.target.behaviour(*question).is_none_or(|row| row.value != "same"))
 }
 
 /// Asks of the target what its places are, where programs name some.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let numbers = Numbers::of(module);
-    let answer = context.target.behaviour(QUESTION).map(|row| row.value.clone());
+    let answer = |question| context.target.behaviour(question).map(|row| row.value.clone());
+    let [moves, offsets] = [MOVES, OFFSETS].map(answer);
     // Zero is where each machine has its home, as the shop says.
-    let home = answer.as_deref() == Some("home");
+    let home = moves.as_deref() == Some("home");
     let one_family = home || context.source.dialect().family == context.target.dialect().family;
     // Under G91 the words are a way on some machines.
     let in_steps = context.source.behaviour(Question::MachineUnderIncremental);
     let in_steps = in_steps.is_some_and(|row| row.value == "increments");
-    let other = home || answer.as_deref() == Some("other");
     for (index, program) in module.programs.iter().enumerate() {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         let cancels = stmts.any(|stmt| stmt.kind.has_op(Op::ShiftCancel));
@@ -50,13 +54,18 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     }
                     _ => false,
                 };
-                if names && other {
+                let writes = stmt.kind.nc().is_none_or(|nc| nc.has(Op::WriteWork));
+                let (question, answer) = if writes { (OFFSETS, &offsets) } else { (MOVES, &moves) };
+                if !names || answer.as_deref() == Some("same") {
+                    continue;
+                }
+                if matches!(answer.as_deref(), Some("other" | "home")) {
                     let what = "this is a place in machine coordinates of the old machine: write the place of the new one into the \
                                 conversion";
                     context.add(index, Diagnostic::new(Code::Conditional, stmt.site.span, what));
-                } else if names {
-                    let what = QUESTION.meaning();
-                    context.unconfirmed(index, Side::Target, stmt.site.span, QUESTION.fact(), what);
+                } else {
+                    let what = question.meaning();
+                    context.unconfirmed(index, Side::Target, stmt.site.span, question.fact(), what);
                 }
             }
         }

@@ -18,6 +18,9 @@ use std::collections::{BTreeMap, BTreeSet};
 const FIRST_MAIN: u32 = 1000;
 const FIRST_SUB: u32 = 8000;
 
+/// The setting that says how long program numbers may be.
+const DIGITS: &str = "setting.program_digits";
+
 /// The numbers, and what the lock is to remember of them.
 #[derive(Clone, Debug, Default)]
 pub struct ProgramNumbers {
@@ -81,6 +84,9 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
         !(taken.contains(&n) || kept.contains(&n) || stands(n) || bounded && looked_for.contains(n))
     });
     taken.extend(of_files.values().copied().flatten());
+    // Longer numbers may be an option of the machine.
+    let may_be_longer = context.target.setting_row(DIGITS).is_some()
+        && !context.target.profile().settings.contains_key(DIGITS.trim_start_matches("setting."));
     let mut out = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         let Some(name) = &program.name else { continue };
@@ -107,8 +113,9 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
                             "{name} becomes {}: the target's program numbers end at {max}",
                             ProgramName::Number(number)
                         );
-                        let found = Diagnostic::new(Code::Renumbered, program.site.span, what);
-                        context.add(index, found.with_help(SELECT));
+                        let found =
+                            Diagnostic::new(Code::Renumbered, program.site.span, what).with_help(SELECT);
+                        context.add(index, if may_be_longer { found.lacking_there(DIGITS) } else { found });
                     }
                     if of_files.contains_key(&index) && number_of_file(name) != Some(number) {
                         let what = format!("{name} becomes {}: {NOT_OF_FILE}", ProgramName::Number(number));
