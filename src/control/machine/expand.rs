@@ -171,7 +171,9 @@ impl Driver<'_> {
             _ => (Spindle::Clockwise, Spindle::CounterClockwise),
         };
         let stands = matches!(self.machine.spindle, Spindle::Stopped | Spindle::Oriented);
-        if stands && !self.machine.rules.lathe && self.machine.rules.taps.starts(cycle.op, self.machine.rigid)
+        if stands
+            && !self.machine.rules.lathe
+            && self.machine.rules.taps.starts(cycle.op, self.machine.rigid, self.trace)
         {
             self.turn(before);
         }

@@ -6,7 +6,9 @@
 use super::{Command, Machine};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
+use crate::control::trace::Trace;
 use crate::dialect::{Control, Question};
+use std::collections::BTreeMap;
 
 /// How a control taps.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +17,8 @@ pub struct Taps {
     pub wait: bool,
     /// True if every tap is rigid.
     pub rigid: bool,
+    /// True if a code makes taps rigid, and nobody says whether others are too.
+    open: bool,
     /// True if a cycle for rigid taps turns a spindle that stands.
     turn: bool,
     /// True if a plain tap does.
@@ -27,14 +31,20 @@ impl Taps {
         Self {
             wait: control.behaviour(Question::TapDwell).is_none_or(|row| row.value != "none"),
             rigid: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always"),
+            open: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "unknown")
+                && control.code_for(Op::RigidTaps, &BTreeMap::new()).is_some(),
             turn: yes(Question::TapRigidTurns),
             start: yes(Question::CycleStartsSpindle),
         }
     }
 
     /// True if this tap turns a spindle that stands.
-    pub fn starts(self, op: Op, state: Rigid) -> bool {
-        self.start || self.rigid || state == Rigid::Taps || self.turn && op == Op::CycleTapRigid
+    pub fn starts(self, op: Op, state: Rigid, trace: &mut Trace) -> bool {
+        let starts = self.start || self.rigid || state == Rigid::Taps || self.turn && op == Op::CycleTapRigid;
+        if !starts && self.open {
+            trace.doubt("behaviour:tap.rigid");
+        }
+        starts || self.open
     }
 }
 
