@@ -86,7 +86,7 @@ impl Question {
 
     /// True for what is set up at each machine, whatever its control does by itself.
     pub const fn is_set_up(self) -> bool {
-        matches!(self, Self::RotaryWay)
+        matches!(self, Self::RotaryWay | Self::RotaryStart)
     }
 
     /// True for the answer that a setting gives it, of a question that a table may leave open.
@@ -261,6 +261,7 @@ questions! {
     TapDwell "tap.dwell" OneOf(&["none", "waits"]), "the wait at the bottom that programs tell a tap of this mill: it waits, or the threads need none", if "said";
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
+    TurretNone "turret.offset.none" OneOf(&["all", "wear", "unknown"]), "what offset 00 of a lathe's T word takes away: all of the tool's offset, or its wear alone, so that the geometry stays", if "role:tool.turret";
     HolePecks "hole.pecks" OneOf(&["plane", "clearance", "unknown"]), "how far a peck of a lathe's drilling cycle goes back: to its retract plane, or by a \
                                                                         clearance", if "op:hole.face or op:hole.face.peck";
     PolarWords "polar.words" OneOf(&["x.c", "x.y", "unknown"]), "the words of moves on a face while C follows them: X as a diameter and C as a length, or X \

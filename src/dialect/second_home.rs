@@ -32,7 +32,12 @@ impl Control {
 
     /// The setting that says by which letters corners and angles of lines are written, and whether a comma may stand there.
     pub fn corner_setting(&self) -> Option<&Setting> {
-        let key = Question::CornerLetters.fact();
+        self.setting_of(Question::CornerLetters)
+    }
+
+    /// The setting that answers a question.
+    pub fn setting_of(&self, question: Question) -> Option<&Setting> {
+        let key = question.fact();
         let mut rows = self.dialect().settings.iter();
         rows.find(|row| row.sets.values().any(|sets| sets.contains_key(key)))
     }

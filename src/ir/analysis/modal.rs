@@ -3,7 +3,7 @@
 use super::contour::Contour;
 pub use super::length_lost::{LengthLost, Ways};
 use super::named::Named;
-use super::tool_word::ToolWord;
+use super::tool_word::{self, ToolWord};
 use super::touches::Touches;
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::Lattice;
@@ -58,6 +58,8 @@ pub struct Modal {
     feed: Feed,
     /// What the last tool word is to the tool in the spindle.
     pub(crate) tool_word: ToolWord,
+    /// True where the last T word of some way here took the offset of a turret away.
+    pub turret_none: bool,
     /// What every way here named.
     pub(crate) named: Named,
     /// The open modal calls, innermost last; absent where paths disagree.
@@ -80,6 +82,7 @@ impl Modal {
             length_word: false,
             feed: Feed::Unknown,
             tool_word: ToolWord::Unknown,
+            turret_none: false,
             named: Named::default(),
             calls: Some(Vec::new()),
             one_unit: false,
@@ -191,7 +194,7 @@ impl Modal {
     pub(crate) fn step_words(&mut self, nc: &Nc) {
         let (mut feed, mut bare) = (None, true);
         for item in &nc.items {
-            bare &= matches!(item, NcItem::Word(role, _) if !matches!(role, Role::LengthOffset | Role::Tool));
+            bare &= matches!(item, NcItem::Word(role, _) if !matches!(role, Role::LengthOffset | Role::Tool | Role::Turret));
             match item {
                 NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
                 // A computed code may be any of its letter.
@@ -212,6 +215,7 @@ impl Modal {
         if !bare {
             self.step_length(nc);
             self.tool_word = self.tool_word.after(nc);
+            self.turret_none = tool_word::takes_offset(nc).unwrap_or(self.turret_none);
         }
         self.named.step(nc);
         self.step_tap(nc);
@@ -298,7 +302,7 @@ impl Modal {
             self.feed = before.feed;
         }
         if !touches.tool {
-            self.tool_word = before.tool_word;
+            (self.tool_word, self.turret_none) = (before.tool_word, before.turret_none);
         }
         self.named.keep(before.named, touches);
         self.calls.clone_from(&before.calls);
@@ -360,6 +364,8 @@ impl Lattice for Modal {
             self.may_be_cancelled = true;
             changed = true;
         }
+        changed |= other.turret_none && !self.turret_none;
+        self.turret_none |= other.turret_none;
         let tool_word = self.tool_word.join(other.tool_word);
         changed |= std::mem::replace(&mut self.tool_word, tool_word) != tool_word;
         changed |= self.length_lost.join(other.length_lost) | self.named.join(other.named);
@@ -381,7 +387,8 @@ impl Lattice for Modal {
 
 /// True for words alone that put nothing in force, unless they run a cycle or a modal call.
 fn only_says_where(nc: &Nc) -> bool {
-    let stays =
-        |role: Role| !matches!(role, Role::LengthOffset | Role::RadiusOffset | Role::Tool | Role::Feed);
+    let stays = |role: Role| {
+        !matches!(role, Role::LengthOffset | Role::RadiusOffset | Role::Tool | Role::Turret | Role::Feed)
+    };
     nc.items.iter().all(|item| matches!(item, NcItem::Word(role, _) if stays(*role)))
 }

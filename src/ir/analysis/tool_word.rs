@@ -1,7 +1,8 @@
 //! What the last tool word is to the tool in the spindle.
 
 use crate::canon::{Op, Role};
-use crate::ir::{Nc, NcItem};
+use crate::dialect::turret_parts;
+use crate::ir::{BinOp, Expr, Nc, NcItem};
 
 /// What the last tool word is to the tool in the spindle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,4 +44,15 @@ impl ToolWord {
             _ => ToolWord::Unknown,
         }
     }
+}
+
+/// True where the T word of a block takes the offset of a turret away, false where it may name one; none without such a word.
+pub fn takes_offset(nc: &Nc) -> Option<bool> {
+    let is_none = |value: f64| turret_parts(value).1 == 0.0;
+    nc.word(Role::Turret).map(|word| match (word.constant(), word) {
+        (Some(value), _) => is_none(value),
+        // A station times 100 is any station, and no offset.
+        (None, Expr::Binary(BinOp::Mul, sides)) => sides.iter().filter_map(Expr::constant).any(is_none),
+        (None, _) => false,
+    })
 }

@@ -60,7 +60,7 @@ impl Touches {
                     self.group(Group::LengthComp);
                 }
                 NcItem::Word(Role::RadiusOffset, _) => self.radius = true,
-                NcItem::Word(Role::Tool, _) => self.tool = true,
+                NcItem::Word(Role::Tool | Role::Turret, _) => self.tool = true,
                 NcItem::Word(..) => {}
             }
         }

@@ -12,6 +12,7 @@ use crate::dialect::{SiteCode, Without};
 use crate::ir::{Expr, Module, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
 use crate::legalize::codes::beside_moves::belongs;
+use crate::legalize::codes::left_zeros;
 use crate::text::Span;
 
 /// Number of the alarm that stands for a code.
@@ -19,6 +20,7 @@ const ALARM: f64 = 100.0;
 
 /// Puts what the profiles say in the place of codes that the target has not.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let zeros = left_zeros::of(module, context);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for block in &mut program.blocks {
             if !block.stmts.iter().any(|stmt| stmt.kind.has_op(Op::Act)) {
@@ -29,6 +31,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+    left_zeros::tell(module, &zeros, context);
 }
 
 /// Lays down a statement, or what stands for the code in it.

@@ -53,9 +53,10 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
         let StmtKind::Nc(nc) = &stmt.kind else { continue };
         let lacks = |op: &Op| !had.contains(op) || lacks_output(nc, *op, context.target);
-        found.extend(nc.ops().filter(lacks).map(|op| (stmt.site.span, op)));
+        let places = [Role::X, Role::Y, Role::Z].iter().any(|role| nc.word(*role).is_some());
+        found.extend(nc.ops().filter(lacks).map(|op| (stmt.site.span, op, places)));
     }
-    for (span, op) in found {
+    for (span, op, places) in found {
         // A hole, a return or a shift that stayed as it was, for a reason that is told, has the source's code still.
         if (op.is_hole() || matches!(op, Op::Reference2 | Op::LocalShift)) && context.is_refused(index, span)
         {
@@ -71,7 +72,7 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         let finding = Diagnostic::new(Code::NoEquivalent, span, what);
         let stand_in = stand_in(op, context.source);
         let lathe = context.target.machine() == Machine::Lathe;
-        let zero = (lathe && op == Op::SetPosition).then(|| set_zero(context.source));
+        let zero = (lathe && op == Op::SetPosition).then(|| set_zero(places, context.source));
         context.add(
             index,
             match (help(op).or(zero), stand_in) {
@@ -125,8 +126,13 @@ fn switches(op: Op, source: &Control) -> String {
 }
 
 /// What becomes of a zero that a program sets from where the tool stands.
-fn set_zero(source: &Control) -> String {
+fn set_zero(places: bool, source: &Control) -> String {
     let code = source.code_for(Op::SetPosition, &BTreeMap::new()).map_or("G50", |row| row.code.as_str());
+    if places {
+        return "set this zero on the target by a work offset (G54) and the tool offsets, and take the block out. A way back to the place \
+                that it names (G0 to the same X and Z) would then count from the work offset: write it as G28 U0 W0, or in machine coordinates with G53"
+            .into();
+    }
     format!(
         "set this zero on the target by a work offset (G54) and the tool offsets, and take the block out. If it changes nothing \
          there, as {code} C0 after the return of C, say so in the source's profile: [[site]] with code = \"{code} C\", words = {{ \

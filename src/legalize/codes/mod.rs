@@ -9,6 +9,7 @@ pub(in crate::legalize) mod c_axis;
 pub(in crate::legalize) mod code_chains;
 pub(in crate::legalize) mod forbidden;
 mod found_codes;
+mod left_zeros;
 pub(in crate::legalize) mod lookahead;
 pub(in crate::legalize) mod machine_codes;
 pub(in crate::legalize) mod missing;

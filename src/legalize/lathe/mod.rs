@@ -25,6 +25,7 @@ pub mod inch_leads;
 pub mod interpolations;
 pub mod lone_passes;
 pub mod modes;
+pub mod none_offsets;
 pub mod other_kind;
 pub mod pass_run_outs;
 mod pen;

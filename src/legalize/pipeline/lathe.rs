@@ -7,7 +7,8 @@ use crate::legalize::Context;
 use crate::legalize::lathe::{
     bare_starts, contour_ends, contour_left, contour_types, contours, corners, counts, cycle_words, faces,
     held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes, modes,
-    pass_run_outs, roughing, run_outs, steps, tap_feeds, thread_ways, written_corners, x_counts, zeros,
+    none_offsets, pass_run_outs, roughing, run_outs, steps, tap_feeds, thread_ways, written_corners,
+    x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -134,6 +135,12 @@ pub(super) const LATHE: &[Pass] = &[
         .when(|c, _| c.any_op(Op::is_hole) && c.role(Role::CycleQ)),
     Pass::rewrites("run-outs", "threads are told that they do not run out by a word", run_outs::run)
         .when(|c, context| run_outs::concerns(c, context.target)),
+    Pass::reports(
+        "none-offsets",
+        "reports moves under offset 00, where the two lathes do not take the same away by it",
+        none_offsets::run,
+    )
+    .when(none_offsets::concerns),
     Pass::reports(
         "lathe-modes",
         "asks what threads in feed a minute and changes of the speed's mode rest on",

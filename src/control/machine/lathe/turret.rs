@@ -102,6 +102,10 @@ impl Machine {
         let number = self.lathe.offset;
         let Offset { x, y, z, .. } = self.lathe.row(number);
         let old = self.frame.tool.unwrap_or_default();
+        if number == 0 && self.rules.turning.keeps_geometry {
+            self.leave_geometry(before, trace);
+            return;
+        }
         if old != [x, y, z] {
             // Whether the slide goes there at once, and what the offset is, no source says for every machine.
             trace.doubt("machine:lathe.tool.offset");
@@ -110,6 +114,16 @@ impl Machine {
         if before != number || old != [x, y, z] {
             trace.push(EventKind::ToolOffset { offset: number, x, z });
         }
+    }
+
+    /// Offset 00 takes the wear away, and the geometry of the tool before stays (T4).
+    fn leave_geometry(&mut self, before: u32, trace: &mut Trace) {
+        if before == 0 {
+            return;
+        }
+        let rest = self.lathe.geometry.get(&before).copied().unwrap_or_default();
+        self.frame.tool = Some([rest.x, rest.y, rest.z]);
+        trace.push(EventKind::ToolOffset { offset: 0, x: 0.0, z: 0.0 });
     }
 
     /// Writes the words of a block into an offset (Z8). It counts from the next T word on.
