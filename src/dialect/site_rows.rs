@@ -175,7 +175,8 @@ impl Overlay {
     fn check_words(&mut self, site: &SiteCode, row: &CodeMeaning) {
         let mut told: BTreeMap<&str, &str> = BTreeMap::new();
         for (letter, meaning) in &site.words {
-            let drops = meaning.trim().is_empty() && site.target.is_some();
+            let stands = site.target.is_some() || site.without.is_some();
+            let drops = meaning.trim().is_empty() && stands;
             if site.op.is_none()
                 && !drops
                 && let Some(other) = told.insert(meaning, letter)
