@@ -7,6 +7,7 @@
 //! Counter-example: a first block of a thread of many passes, which changes the parameter on a control that has both.
 
 use super::settings::{setting, stand_in};
+use super::thread_form::apart;
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -24,7 +25,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let own =
         [context.source, context.target].map(|control| setting(control, Op::Threading, Role::ThreadRunOut));
     let is_set = own.iter().any(Option::is_some);
-    let (ours, theirs) = (by(context.source, context), by(context.target, context));
+    let (ours, theirs) = (by(context.source, module), by(context.target, module));
     let known = |one: &By| one.as_ref().and_then(|(_, value)| *value);
     match (known(&ours), known(&theirs)) {
         (Some(here), Some(there)) if (here - there).abs() < 1e-9 => false,
@@ -37,13 +38,27 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     }
 }
 
-/// What says it on a control. A parameter that blocks before threads write is not known.
-fn by(control: &Control, context: &Context<'_>) -> By {
+/// What says it on a control. A parameter that blocks before threads set to something else is not known.
+fn by(control: &Control, module: &Module) -> By {
     let own = setting(control, Op::Threading, Role::ThreadRunOut);
     let stands = stand_in(control, Op::Threading, Role::ThreadRunOut);
-    let changes = own.is_none() && context.features.op(Op::ThreadingSetup);
+    let is_own = own.is_some();
     let found = own.or(stands)?;
-    Some((found.0.to_owned(), found.1.filter(|_| !changes)))
+    Some((found.0.to_owned(), found.1.filter(|leads| is_own || !is_changed(*leads, module))))
+}
+
+/// True where a block of the library before threads may set another run-out.
+fn is_changed(leads: f64, module: &Module) -> bool {
+    let mut setups =
+        module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    setups.any(|stmt| {
+        let Some(nc) = stmt.kind.nc().filter(|nc| nc.has(Op::ThreadingSetup)) else { return false };
+        let words = [Role::ThreadForm, Role::ThreadRunOut].into_iter();
+        let mut values: Vec<_> = words.filter_map(|role| Some((role, nc.word(role)?.clone()))).collect();
+        let known = apart(&mut values);
+        let mut run_outs = values.iter().filter(|(role, _)| *role == Role::ThreadRunOut);
+        !known || run_outs.any(|(_, value)| value.constant().is_none_or(|own| (own - leads).abs() > 1e-9))
+    })
 }
 
 /// Makes passes run out as they do on the source, by codes or by what the target must be set to.
@@ -160,16 +175,34 @@ fn ask(module: &Module, (ours, theirs): (&By, &By), context: &mut Context<'_>) {
         of(ours, context.source),
         of(theirs, context.target)
     );
-    let lacks = |one: &By| one.as_ref().filter(|(_, value)| value.is_none()).map(|(name, _)| name.clone());
+    let open = |one: &By, control: &Control| {
+        let open = one.as_ref().filter(|(name, value)| value.is_none() && control.leaves_open(name));
+        open.map(|(name, _)| name.clone())
+    };
+    let changed = |one: &By, control: &Control| {
+        let set = one.as_ref().filter(|(name, value)| value.is_none() && !control.leaves_open(name));
+        set.map(|(name, _)| name.replacen('.', " ", 1))
+    };
+    let set = changed(ours, context.source).or_else(|| changed(theirs, context.target));
+    let help = set.map(|name| {
+        format!(
+            "the profile says {name}, but first blocks of G76 in the library set it to another value (the third and fourth digit of their P): the last \
+             one that ran counts. Write the first block of a G76 with the run-out of these passes before them, or look at which \
+             program runs before"
+        )
+    });
     for (index, program) in module.programs.iter().enumerate() {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         if let Some(stmt) = stmts.find(|stmt| stmt.kind.has_op(Op::ThreadingPass)) {
             let mut finding = Diagnostic::new(Code::Conditional, stmt.site.span, what.clone());
-            if let Some(name) = lacks(ours) {
+            if let Some(name) = open(ours, context.source) {
                 finding = finding.lacking(name);
             }
-            if let Some(name) = lacks(theirs) {
+            if let Some(name) = open(theirs, context.target) {
                 finding = finding.lacking_there(name);
+            }
+            if let Some(help) = &help {
+                finding = finding.with_help(help.clone());
             }
             context.add_once(index, &what, finding.asked_once());
         }

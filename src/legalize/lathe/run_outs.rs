@@ -6,7 +6,7 @@
 //! single pass (G92), whose run-out on the target only a parameter of the machine says.
 
 use super::straight::entered_straight;
-use crate::canon::{Op, Role};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, Stmts, TermKind};
@@ -24,8 +24,9 @@ pub fn concerns(features: &Features, target: &Control) -> bool {
 
 /// Tells threads their run-out by a word, and drops the codes.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let single = context.features.op(Op::ThreadRunOutOff) && context.features.op(Op::ThreadingPass);
     let linked = linked(module, context);
+    // A single pass in a program that this one may call, or that may call it.
+    let beyond = linked.iter().any(|index| module.programs.get(*index).is_some_and(has_pass));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let straight = entered_straight(program);
         let never_off =
@@ -35,14 +36,22 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let told = Diagnostic::new(Code::Conditional, span, ELSEWHERE).with_help(ELSEWHERE_HELP);
             context.add_once(index, ELSEWHERE, told.asked_once());
         }
+        let passes = has_pass(program);
+        let single = linked.contains(&index) && beyond;
         let mut on = never_off.then_some(true);
+        // Whether a single pass is in force.
+        let mut in_pass = Some(false);
         for (block, straight) in program.blocks.iter_mut().zip(straight) {
             if !straight {
                 on = never_off.then_some(true);
+                in_pass = (!passes).then_some(false);
             }
             let mut out = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::take(&mut block.stmts) {
-                let refused = step(&mut stmt, &mut on, never_off, single);
+                in_pass = motion(&stmt).or(in_pass);
+                let refused = step(&mut stmt, &mut on, never_off, single || in_pass != Some(false));
+                let straight = !single && on != Some(true) && stmt.kind.has_op(Op::ThreadingPass);
+                let refused = refused.or(straight.then_some((SINGLE, SINGLE_HELP)));
                 if let Some((what, help)) = refused {
                     let told = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
                     context.add(index, told);
@@ -78,10 +87,25 @@ fn may_switch_off(program: &Program) -> bool {
     stmts.any(|stmt| stmt.kind.has_op(Op::ThreadRunOutOff))
 }
 
-/// The first thread of many passes.
+/// The first thread that may run out.
 fn thread(program: &Program) -> Option<Span> {
     let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    stmts.find(|stmt| stmt.kind.has_op(Op::Threading)).map(|stmt| stmt.site.span)
+    let threads = |stmt: &&Stmt| stmt.kind.has_op(Op::Threading) || stmt.kind.has_op(Op::ThreadingPass);
+    stmts.find(threads).map(|stmt| stmt.site.span)
+}
+
+/// True for a program with single passes of threads.
+fn has_pass(program: &Program) -> bool {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| stmt.kind.has_op(Op::ThreadingPass))
+}
+
+/// Whether a block puts a single pass in force; none where it names no motion, or may be skipped.
+fn motion(stmt: &Stmt) -> Option<bool> {
+    let nc = stmt.kind.nc()?;
+    let op = nc.ops().filter(|op| op.group() == Group::Motion || op.is_lathe_cycle()).last()?;
+    let passes = op == Op::ThreadingPass;
+    (passes || stmt.site.skip.is_none()).then_some(passes)
 }
 
 /// Takes a statement; why it is refused, and what to do.
@@ -103,7 +127,7 @@ fn step(
             return Some((BESIDE, "give the M code a block of its own"));
         }
         if single && code == Op::ThreadRunOutOff {
-            return Some((SINGLE, "write these threads with G76 or G32"));
+            return Some((SINGLE, SINGLE_HELP));
         }
     }
     if !thread {
@@ -129,6 +153,7 @@ const ELSEWHERE: &str = "a program of the library switches the run-out of thread
 const ELSEWHERE_HELP: &str =
     "make sure that it is so on the machine, or write M23 at the start of these programs";
 const BESIDE: &str = "M23 or M24 beside a thread: whether it counts for that thread no source says";
-const SINGLE: &str = "M24 in a library with threads by G92: by what a single pass of the target runs out only a parameter of it says";
+const SINGLE: &str = "a thread by G92 may come while its run-out is switched off (M24): by what a single pass of the target runs out only a parameter of it says";
+const SINGLE_HELP: &str = "write M23 before these threads, or write them with G76 or G32";
 const UNKNOWN: &str = "whether this thread runs out is not known: a program of the library switches that off (M24), and no code before it says \
                        which is in force";
