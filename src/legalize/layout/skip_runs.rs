@@ -213,6 +213,8 @@ pub fn apart(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool
     let ways = arrivals(program, context);
     let mut levels: BTreeMap<usize, u8> = BTreeMap::new();
     let mut heads: BTreeSet<usize> = BTreeSet::new();
+    // A call right after another one is gone round by itself.
+    let mut after_calls: BTreeSet<usize> = BTreeSet::new();
     for (at, block) in program.blocks.iter().enumerate() {
         let Some((level, on, off)) = switch(&block.term) else { continue };
         let Some(body) = chain(program, &ways, at, off.index(), on.index()) else { continue };
@@ -221,9 +223,13 @@ pub fn apart(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool
             program.blocks[*at].stmts.iter().all(goes)
         };
         // One call alone is gone round as it is.
-        let says = body.iter().any(|at| !program.blocks[*at].stmts.is_empty());
+        let calls = |at: &&usize| matches!(program.blocks[**at].term.kind, TermKind::Call { .. });
+        let says = body.iter().any(|at| !program.blocks[*at].stmts.is_empty())
+            || body.iter().filter(calls).count() > 1;
         if says && body.iter().all(is_plain) {
             heads.insert(at);
+            let before = body.iter().filter(calls);
+            after_calls.extend(before.filter_map(|at| goes_on(&program.blocks[*at].term.kind)));
             levels.extend(body.into_iter().map(|at| (at, level)));
         }
     }
@@ -233,7 +239,7 @@ pub fn apart(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool
     let calls: BTreeMap<usize, BlockId> = levels
         .keys()
         .filter_map(|at| match (&program.blocks[*at].term.kind, program.blocks[*at].stmts.is_empty()) {
-            (TermKind::Call { next, .. }, true) => Some((*at, *next)),
+            (TermKind::Call { next, .. }, true) if !after_calls.contains(at) => Some((*at, *next)),
             _ => None,
         })
         .collect();
