@@ -3,7 +3,7 @@
 use crate::assume::Predicate;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::computed_calls::computed_calls;
 use crate::ir::{
     BlockId, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo,
@@ -87,9 +87,11 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                     _ if both => Diagnostic::new(Code::NoEquivalent, span, EITHER).with_help(EITHER_HELP),
                     Some(_) => Diagnostic::new(Code::Conditional, span, BY_NUMBER).assuming(Predicate::Main),
                     // One that ends the run is a main program: the question is the library's, if other files may call it.
-                    None if ends => Diagnostic::new(Code::Conditional, span, UNCALLED)
-                        .assuming(Predicate::Main)
-                        .asked_once(),
+                    None if ends || is_numbered_as_main(program.name.as_ref(), context.source) => {
+                        Diagnostic::new(Code::Conditional, span, UNCALLED)
+                            .assuming(Predicate::Main)
+                            .asked_once()
+                    }
                     None => Diagnostic::new(Code::Conditional, span, UNCALLED).assuming(Predicate::Main),
                 };
                 context.add(index, finding);
@@ -204,8 +206,8 @@ fn wanted_by(module: &Module, numbers: &BTreeMap<ProgramName, Vec<u32>>) -> BTre
     wanted
 }
 
-const UNCALLED: &str =
-    "nothing in the library calls this program: as a main program it goes on at that block";
+const UNCALLED: &str = "nothing in the library calls this program: it is taken to be a main program, which goes on at that block of its own; where the \
+     control counts parts by such a return, a jump does not count";
 const BY_NUMBER: &str = "only a call by a number that is not known might run this program, and the program with that call has no such \
      block: as a main program it goes on at that block";
 const EITHER: &str = "as a main program this goes on at its own block of that number; a call by a number that is not known might run it \
@@ -268,4 +270,10 @@ fn subroutines_that_return_to(program: &Program) -> Vec<Span> {
     };
     let calls = program.blocks.iter().filter(|block| calls_of(block).any(returns));
     calls.map(|block| block.term.site.span).collect()
+}
+
+/// True for a number of four digits that is none of a macro: of a program that an operator runs.
+fn is_numbered_as_main(name: Option<&ProgramName>, source: &Control) -> bool {
+    let last = source.limit("program.main").unwrap_or(7999);
+    matches!(name, Some(ProgramName::Number(number)) if (1..=last).contains(number))
 }

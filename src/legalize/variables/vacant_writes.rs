@@ -49,8 +49,7 @@ fn added(module: &Module, context: &mut Context<'_>) {
     if !any || !Features::of(&module.programs).any_op(|op| op == Op::Incremental) {
         return;
     }
-    let called: BTreeSet<usize> =
-        context.called(module).pairs(module).into_iter().map(|(_, callee)| callee).collect();
+    let pairs = context.called(module).pairs(module);
     let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
@@ -60,7 +59,7 @@ fn added(module: &Module, context: &mut Context<'_>) {
                     let mut words = state.clone();
                     words.step_words(nc);
                     if words.op(Group::Distance) != Some(Op::Absolute) {
-                        let again = called.contains(&index) || runs_again(program, id);
+                        let again = calls_again(index, &pairs, module) || runs_again(program, id);
                         report(index, stmt.site.span, again, context);
                     }
                 }
@@ -83,6 +82,31 @@ fn report(index: usize, span: Span, again: bool, context: &mut Context<'_>) {
     };
     let help = "write the whole value under G90, or round the amount so that it can be halved";
     context.add_once(index, what, Diagnostic::new(code, span, what).with_help(help));
+}
+
+/// True where the programs that call one may run it more than once in one run: unless each of them is called by none, and names it in one
+/// call, without a count and in no loop.
+fn calls_again(index: usize, pairs: &[(usize, usize)], module: &Module) -> bool {
+    let name = module.programs.get(index).and_then(|program| program.name.as_ref());
+    let callers: BTreeSet<usize> =
+        pairs.iter().filter(|(_, callee)| *callee == index).map(|(caller, _)| *caller).collect();
+    callers.into_iter().any(|caller| {
+        let Some(program) = module.programs.get(caller) else { return true };
+        let named = |call: &Call| matches!(&call.callee, Callee::Program(callee) if Some(callee) == name);
+        let mut places = program
+            .ids()
+            .zip(&program.blocks)
+            .flat_map(|(id, block)| calls_of(block).filter(|call| named(call)).map(move |call| (id, call)));
+        let only = places.next().filter(|(id, call)| call.count.is_none() && !runs_again(program, *id));
+        let restarts = program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::Return { .. }));
+        let modal = program.blocks.iter().flat_map(|block| &block.stmts);
+        let modal = modal.into_iter().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
+        only.is_none()
+            || places.next().is_some()
+            || restarts
+            || modal
+            || pairs.iter().any(|(_, callee)| *callee == caller)
+    })
 }
 
 /// True where a block may come again in one run of the program.
