@@ -229,6 +229,7 @@ questions! {
                                                     level, and along it only with an allowance for that pass", if "op:contour.turning";
     RoughingNose "roughing.nose" OneOf(&["ignored", "counts", "unknown"]), "what nose radius compensation (G41, G42) does while a contour is roughed: nothing, or it \
                                                                             changes the allowance", if "op:contour.turning";
+    ContourNose "contour.nose" OneOf(&["read", "alarm", "unknown"]), "what G40, G41 and G42 between the blocks of a contour do while it is roughed: they are read, or stop it with an alarm", if "op:contour.turning";
     RoughingValleys "roughing.valleys" OneOf(&["axes", "word"]), "what says that the contour of a roughing has valleys: the axes that its first block names, or a word of the cycle", if "op:contour.turning";
     ThreadFeedIsLead "thread.feed.is.lead" YES, "F of a thread is its lead in feed a minute too", if "op:threading";
     SpeedKept "speed.kept" OneOf(&["mode", "turns", "unknown"]), "the speed after a change between G96 and G97 without S: the last one of that mode, or the turns of the \

@@ -99,7 +99,15 @@ pub(super) fn further_axes(source: &Control, module: &Module) -> Vec<char> {
         // In the plane of a face Y is a length that C makes.
         on_face = nc.has(Op::PolarPlane) || on_face && !nc.has(Op::PolarPlaneOff);
         for (role, moved) in &mut roles {
-            let counts = *role != Role::Y || source.machine() == Machine::Lathe && !on_face;
+            let lathe = source.machine() == Machine::Lathe;
+            // Beside X or Z of a lathe A may be the angle of a line, and C a chamfer: what moves an axis stands alone somewhere.
+            let drawn = [Role::X, Role::Z, Role::StepX, Role::StepZ];
+            let drawn = lathe && drawn.iter().any(|role| nc.word(*role).is_some());
+            let counts = match role {
+                Role::Y => lathe && !on_face,
+                Role::A | Role::C => !drawn,
+                _ => true,
+            };
             *moved |= counts && nc.word(*role).is_some();
         }
     }

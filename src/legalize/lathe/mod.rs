@@ -4,6 +4,7 @@ pub mod bare_starts;
 pub mod contour_ends;
 pub mod contour_left;
 mod contour_modes;
+pub mod contour_nose;
 pub mod contour_numbers;
 mod contour_starts;
 pub mod contour_types;

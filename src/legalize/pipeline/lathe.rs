@@ -5,9 +5,9 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    bare_starts, contour_ends, contour_left, contour_types, contours, corners, counts, cycle_words, faces,
-    held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes, modes,
-    none_offsets, pass_run_outs, roughing, run_outs, steps, tap_feeds, thread_ways, written_corners,
+    bare_starts, contour_ends, contour_left, contour_nose, contour_types, contours, corners, counts,
+    cycle_words, faces, held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes,
+    modes, none_offsets, pass_run_outs, roughing, run_outs, steps, tap_feeds, thread_ways, written_corners,
     x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
@@ -184,6 +184,12 @@ pub(super) const LATHE: &[Pass] = &[
     .needs(&["lathe-cycles"]),
     Pass::reports("roughing", "checks that the roughing of contours ends alike", roughing::run)
         .when(roughing::concerns),
+    Pass::reports(
+        "contour-nose",
+        "reports compensation in contours that the target may stop at",
+        contour_nose::run,
+    )
+    .when(contour_nose::concerns),
     Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)
         .when(|c, _| contours::concerns(c))
         .needs(&["lathe-cycles", "beside-moves", "pauses"]),

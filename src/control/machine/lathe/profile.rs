@@ -32,7 +32,7 @@ impl Profile {
         let mut reader = Reader { machine, at: machine.tool_at(), motion: Op::Rapid, incremental };
         let mut moves = Vec::new();
         for (block, found) in contour.blocks.iter().enumerate() {
-            check(op, &found.command, trace)?;
+            check(op, &found.command, machine.rules.turning.nose_alarms, trace)?;
             if block == 0 {
                 reader.begin(found)?;
             }
@@ -65,7 +65,7 @@ impl Profile {
 }
 
 /// R7: what may stand in a contour.
-fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+fn check(op: Op, command: &Command, nose_alarms: bool, trace: &mut Trace) -> Result<(), Stop> {
     use Op::{ArcCcw, ArcCw, Dwell, Linear, OptionalStop, Rapid, Stop as Halt};
     let number = if op == Op::Finish { "PS0325" } else { "PS0066" };
     for found in &command.ops {
@@ -73,6 +73,9 @@ fn check(op: Op, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         let mode = matches!(found.group(), RadiusComp | SpeedMode | FeedMode | Distance);
         let own = matches!(found.auxiliary(), Some(kind) if kind != Auxiliary::Change);
         let m = matches!(found, Op::MachineSpecific | Op::Builder | Op::Act | Halt | OptionalStop);
+        if nose_alarms && op != Op::Finish && found.group() == RadiusComp {
+            return Err(alarm("PS0325", "nose radius compensation between the blocks of a contour"));
+        }
         let fine = matches!(found, Rapid | Linear | ArcCw | ArcCcw | Dwell | Op::TurretIndex);
         if !(mode || own || m || fine) {
             return Err(alarm(

@@ -22,6 +22,8 @@ pub struct Turning {
     pub c_by_return: bool,
     /// True where a negative radius of an arc is an alarm (C7).
     pub radius_not_negative: bool,
+    /// True where G40 to G42 in a contour that is roughed are an alarm (R7).
+    pub nose_alarms: bool,
     /// True where offset 00 takes the wear alone away (T4).
     pub keeps_geometry: bool,
     /// True where X is written as a radius (C1).
@@ -110,6 +112,7 @@ impl Turning {
                 .any(|row| row.negative && row.words.contains(&Role::ArcRadius)),
             inch_set: set_to_inch.or(profile).filter(|_| agrees),
             c_by_return: answer(Question::CAxisEngages) == Some("return"),
+            nose_alarms: answer(Question::ContourNose) == Some("alarm"),
             keeps_geometry: answer(Question::TurretNone) == Some("wear"),
             radii: answer(Question::XCounts) == Some("radius"),
             letters: answer(Question::CornerLetters) == Some("letters"),
