@@ -1,10 +1,10 @@
 //! `macroglot survey PATH...`.
 
 use super::WELL;
-use super::common::{self, control, controls, doubt, own_profile, read, source_of};
+use super::common::{self, control, controls, doubt, own_profile, read_all, source_of};
 use super::streams::{self, complain, complain_lines, remark};
 use crate::dialect::{Machine, Side};
-use crate::library::{Files, of_library, settled, write_file};
+use crate::library::{Files, WhyNot, of_library, settled, write_file};
 use crate::survey::{self, Survey};
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn work(arguments: &Arguments) -> Result<(), u8> {
-    let inputs = read(&arguments.paths)?;
+    let (inputs, left_out) = read_all(&arguments.paths)?;
     let to = arguments.to.as_deref();
     let from = source_of(arguments.from.as_deref(), to.as_slice(), &arguments.machine, &inputs)?;
     let mut dialects: Vec<&str> = [from.as_str()].into_iter().chain(to).collect();
@@ -78,6 +78,13 @@ fn work(arguments: &Arguments) -> Result<(), u8> {
         return Err(complain(format!("{} is a program and would be overwritten", place.display())));
     }
     doubt(source.name(), &inputs);
+    for left in left_out.iter().filter(|left| left.why == WhyNot::Program) {
+        remark(format!(
+            "left out {}: {}; name the file itself to read it",
+            left.path.display(),
+            left.why.words()
+        ));
+    }
     let mut survey = common::with_spinner(format!("looking at {} files", inputs.len()), || {
         survey::survey(&inputs, &source, target.as_ref())
     });

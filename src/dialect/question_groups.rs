@@ -23,7 +23,7 @@ const GROUPS: &[QuestionGroup] = &[
     },
     QuestionGroup {
         name: "message.ends",
-        meaning: "a stop with a message stops the spindle and switches coolant off: where only one of the two is so, answer \
+        meaning: "a stop with a message, or a question to the operator, stops the spindle and switches coolant off: where only one of the two is so, answer \
                   'message.ends.spindle' and 'message.ends.coolant'",
         questions: &[Question::MessageEndsSpindle, Question::MessageEndsCoolant],
     },

@@ -314,6 +314,7 @@ questions! {
     ChangeRetracts "change.retracts" OneOf(&["true", "false", "alarm", "unknown"]), "a tool change takes Z to the tool change position first, wherever the program left it; or leaves it there (false); or stops with an alarm if Z is not there (alarm)", if "said";
     RotaryWay "rotary.way" OneOf(&["turns", "shortest", "sign", "unknown"]), "how a rotary axis goes to an absolute angle: turns and all, the shortest way to the place \
                                                                               within one turn, or the way that the sign says", if "said";
+    RotaryZeroSign "rotary.zero.sign" YES, "the sign of an angle that is zero is the way of its axis too: A-0 turns the minus way to 0", if "said";
     RotaryStart "rotary.start" OneOf(&["zero", "unknown"]), "a rotary axis stands at 0 when a program begins and after a return to the reference position, and has one zero under all work \
                                                             offsets: the sign of an angle depends on where the axis stands", if "said";
     RotaryFeed "rotary.feed" OneOf(&["degrees", "surface", "unknown"]), "what a feed per minute is where a rotary axis moves: degrees, or the way of the surface by a \

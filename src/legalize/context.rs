@@ -69,6 +69,8 @@ pub struct Context<'a> {
     pub(super) had: OnceLock<BTreeSet<Op>>,
     /// By program of the source and block: what its computed G codes may be, if that is known; from the pass `codes` on.
     pub computed_codes: BTreeMap<(usize, Span), Option<Vec<f64>>>,
+    /// By program of the source and block: the stops that stand for a code of the source which stops nothing there.
+    pub(super) stood_in: BTreeSet<(usize, Span)>,
     /// The programs of the source in which every read waits until the moves before it are done.
     pub waiting: BTreeSet<usize>,
     findings: Findings,
@@ -119,6 +121,7 @@ impl<'a> Context<'a> {
             numbers: ProgramNumbers::default(),
             m_codes: OnceLock::new(),
             had: OnceLock::new(),
+            stood_in: BTreeSet::new(),
             computed_codes: BTreeMap::new(),
             waiting: BTreeSet::new(),
             findings,

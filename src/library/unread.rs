@@ -25,6 +25,8 @@ pub enum WhyNot {
     Link,
     /// Its ending is none that programs have.
     Unknown,
+    /// The same, though it looks like a program.
+    Program,
     /// It reads like prose.
     Prose,
     /// It has no bytes.
@@ -47,6 +49,7 @@ impl WhyNot {
             Self::Ignored => "ignored",
             Self::Link => "a link",
             Self::Unknown => "with an unknown ending",
+            Self::Program => "with an unknown ending, though it looks like a program",
             Self::Prose => "that reads like a text for people",
             Self::Empty => "empty",
             Self::Binary => "binary",

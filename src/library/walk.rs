@@ -64,7 +64,11 @@ fn look(folder: &Path, endings: &[String], above: bool) -> Result<Walked, InputE
                     walked.programs.push((path.to_owned(), name));
                 }
             } else if !is_own(path) {
-                let why = if kind.is_symlink() { WhyNot::Link } else { WhyNot::Unknown };
+                let why = match kind.is_symlink() {
+                    true => WhyNot::Link,
+                    false if looks_like_program(path) => WhyNot::Program,
+                    false => WhyNot::Unknown,
+                };
                 walked.left_out.push(LeftOut { path: path.to_owned(), why });
             }
         }
@@ -134,6 +138,30 @@ fn is_for_people(path: &Path) -> bool {
     let read = File::open(path).and_then(|file| file.take(LOOKED_AT).read_to_end(&mut head));
     read.is_ok() && is_prose(&String::from_utf8_lossy(&head))
 }
+
+/// True for a file that begins as programs do: with the mark of a tape (`%`), if any, and then with the number of a program.
+fn looks_like_program(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LOOKED_AT).read_to_end(&mut head));
+    if read.is_err() || head.contains(&0) {
+        return false;
+    }
+    let text = String::from_utf8_lossy(&head).to_ascii_uppercase();
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && *line != TAPE);
+    let first = lines.next().unwrap_or_default();
+    let first = first.strip_prefix(TAPE).unwrap_or(first).trim_start();
+    let after_n = first
+        .strip_prefix('N')
+        .map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start());
+    let first = after_n.unwrap_or(first);
+    program_marks().iter().filter_map(|mark| first.strip_prefix(mark)).any(|rest| {
+        let name = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+        name.len() < rest.len() && !name.starts_with(|c: char| c.is_ascii_alphanumeric())
+    })
+}
+
+/// The mark at both ends of a tape.
+const TAPE: &str = "%";
 
 /// True where most lines are sentences: three words or more, and more of them than of anything else. Comments count as
 /// nothing.

@@ -3,7 +3,7 @@
 use super::asked::asked;
 use super::{Part, Questions, Totals};
 use crate::diag::{Code, Diagnostic, Severity};
-use crate::library::{LeftOut, Outcome, Told};
+use crate::library::{LeftOut, Outcome, Told, WhyNot};
 use crate::syntax::ProgramName;
 use crate::text::{shown, shown_lines};
 use miette::{GraphicalReportHandler, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents};
@@ -276,7 +276,8 @@ fn list(out: &mut String, part: &Part<'_>) {
 /// How many files were left out, and why; each by its name too.
 pub fn left_out_text(left_out: &[LeftOut], named: bool) -> String {
     let mut out = String::new();
-    for left in left_out.iter().filter(|_| named) {
+    // A program that is not read must not be missed.
+    for left in left_out.iter().filter(|left| named || left.why == WhyNot::Program) {
         let _ = writeln!(out, "left out   {}: {}", shown(&left.path.to_string_lossy()), left.why.words());
     }
     let mut counts = BTreeMap::new();

@@ -157,6 +157,8 @@ pub struct Rules {
     pub length_moves: bool,
     /// The sign of an absolute angle is the way of its axis.
     pub turns_by_sign: bool,
+    /// That of zero too.
+    pub zero_has_sign: bool,
     /// A word of a rotary axis alone runs the cycle in force.
     pub cycle_runs_by_rotary: Fact<bool>,
     pub length_after_change: Fact<LengthAfter>,
@@ -330,6 +332,7 @@ impl Rules {
             machine_move_is_rapid: control.is(Question::MachineMoveRapid),
             length_moves: control.is(Question::LengthMoves),
             turns_by_sign: answers::turns_by_sign(control),
+            zero_has_sign: answers::zero_has_sign(control),
             cycle_runs_by_rotary: yes(control, Question::CycleRunsByRotary, true)
                 .or_silent(control, Question::CycleRunsByRotary),
             length_after_change: after(Question::ChangeLength).or_silent(control, Question::ChangeLength),

@@ -14,6 +14,7 @@ impl Machine {
     pub(super) fn by_word(&self, axis: usize, from: f64, (word, by_itself): (f64, bool), zero: f64) -> f64 {
         match is_rotary(axis) && self.rules.turns_by_sign {
             _ if self.incremental || by_itself => from + word,
+            true if word == 0.0 && !self.rules.zero_has_sign => by_sign(from, 0.0, zero),
             true => by_sign(from, word, zero),
             false => word + zero,
         }

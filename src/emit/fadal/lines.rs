@@ -39,8 +39,8 @@ pub(super) struct Page<'p> {
     site: Option<&'p SourceInfo>,
     /// Comments in a row that were written on blocks of their own.
     row: usize,
-    /// Comments that wait for a block with something else in it.
-    rest: VecDeque<String>,
+    /// Comments that wait for a block with something else in it, each with the pieces that are left of it.
+    rest: VecDeque<VecDeque<String>>,
 }
 
 impl Page<'_> {
@@ -172,20 +172,32 @@ impl<'p> Emitter<'p> {
             return;
         }
         let pieces = wrap(&text, self.widest_comment());
-        self.page.rest.extend(pieces.into_iter().map(str::to_owned));
+        self.page.rest.push_back(pieces.into_iter().map(str::to_owned).collect());
         self.write_comments(bound(self.control.text().comments_in_a_row));
     }
 
-    /// Writes the comments that wait, as many as may stand in a row.
+    /// Writes the comments that wait, as many as may stand in a row. No block comes between the pieces of one, unless it has more
+    /// of them than that.
     fn write_comments(&mut self, most: usize) {
-        while self.page.row < most
-            && let Some(piece) = self.page.rest.pop_front()
+        while let Some(comment) = self.page.rest.front()
+            && self.page.row < most
+            && (comment.len() <= most - self.page.row || self.page.row == 0)
         {
-            let start = self.head(false);
-            self.out.push('(');
-            self.out.push_str(&piece);
-            self.end_line(start);
-            self.page.row += 1;
+            let room = most - self.page.row;
+            let pieces: Vec<String> = match self.page.rest.front_mut() {
+                Some(comment) => comment.drain(..comment.len().min(room)).collect(),
+                None => return,
+            };
+            if self.page.rest.front().is_some_and(VecDeque::is_empty) {
+                self.page.rest.pop_front();
+            }
+            for piece in pieces {
+                let start = self.head(false);
+                self.out.push('(');
+                self.out.push_str(&piece);
+                self.end_line(start);
+                self.page.row += 1;
+            }
         }
     }
 

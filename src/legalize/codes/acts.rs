@@ -82,6 +82,9 @@ fn replace(mut stmt: Stmt, index: usize, out: &mut Stmts, context: &mut Context<
         }
         return;
     };
+    if matches!(kind, StmtKind::StopMessage { .. }) {
+        context.stood_in.insert((context.origin(index), span));
+    }
     if emptied {
         stmt.kind = kind;
         return out.push(stmt);
@@ -124,7 +127,8 @@ fn stands_for(
                 number: Box::new(Expr::Number(1.0)),
                 text: text().to_uppercase().into(),
             };
-            (told("is a stop", "make sure that the operator can do it then"), Some(kind))
+            let check = "make sure that the operator can do it then: what turns there turns on, unless the program stops it before";
+            (told("is a stop", check), Some(kind))
         }
         Some(Without::Alarm) => {
             let kind =

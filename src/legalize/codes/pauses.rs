@@ -17,6 +17,7 @@ mod lost;
 
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Ends;
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
@@ -128,6 +129,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 after: &after,
                 again: Vec::new(),
                 tool: None,
+                stood_in: false,
                 passes,
             };
             let before = place.block(block, context);
@@ -235,6 +237,8 @@ struct Place<'p> {
     again: Vec<(usize, Op)>,
     /// The tool that the block put into the spindle last.
     tool: Option<f64>,
+    /// True at a stop that stands for a code of the source which ends nothing there.
+    stood_in: bool,
     /// True where the target passes over a change to the tool that is in the spindle: then it ends nothing.
     passes: bool,
 }
@@ -251,6 +255,8 @@ impl Place<'_> {
             let is_other = matches!((before, self.tool), (Some(before), Some(tool)) if before != tool);
             self.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
             self.skipped = stmt.site.skip.is_some();
+            self.stood_in = matches!(stmt.kind, StmtKind::StopMessage { .. })
+                && context.stood_in.contains(&(context.origin(self.index), stmt.site.span));
             let Some((pause, optional)) = pause else { continue };
             // What stands beside a move is left: before it, the move would find it ended.
             let moves = pause == Pause::Change && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves());
@@ -265,7 +271,7 @@ impl Place<'_> {
             found.insert(number, before);
         }
         if self.ends {
-            (self.restarted, self.skipped) = ([false; 2], false);
+            (self.restarted, self.skipped, self.stood_in) = ([false; 2], false, false);
             let before =
                 self.stop((Pause::End, false, false, true), usize::MAX, block.term.site.span, context);
             if !before.is_empty() {
@@ -298,7 +304,10 @@ impl Place<'_> {
             if !self.may_run(running) || self.restarted[running as usize] {
                 continue;
             }
-            let here = context.source.ends(pause, running);
+            let here = match context.source.ends(pause, running) {
+                here if self.stood_in => Ends { answer: Some(false), known: true, ..here },
+                here => here,
+            };
             let there = context.target.ends(written(pause, context.target), running);
             let matters = self.after.matters(self.index, self.id, number, running);
             if matters && !here.known {
@@ -363,7 +372,7 @@ impl Place<'_> {
     }
 
     /// Says that the target may do otherwise, or does.
-    fn tell(&self, pause: Pause, there: crate::dialect::Ends, span: Span, context: &mut Context<'_>) {
+    fn tell(&self, pause: Pause, there: Ends, span: Span, context: &mut Context<'_>) {
         if !there.known {
             return context.rests_on_target(self.index, span, there.question);
         }

@@ -4,6 +4,7 @@
 //! others call and that names an angle begins with none known, as it may be run by itself. At the start of others, after a
 //! return to the reference position and under another work offset the axes are taken to stand at 0, or where they stood.
 
+use super::rotary_ways::zero_sign;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::dataflow::Lattice;
@@ -227,13 +228,14 @@ pub(in crate::legalize) fn is_aside(nc: &Nc) -> bool {
     nc.ops().any(|op| op.takes_axes() || op == Op::MachineOnce)
 }
 
-/// The angle of a word, where it is a number.
+/// The angle of a word, where it is a number. A zero keeps its sign, unless the control is known not to read it.
 pub(in crate::legalize) fn degrees(value: &Expr, control: &Control) -> Option<f64> {
     match value {
         Expr::Negate(inner) => degrees(inner, control).map(|angle| -angle),
         Expr::Increments(count) => Some(count * control.numbers().increment_degrees),
         value => value.constant(),
     }
+    .map(|angle| if angle == 0.0 && zero_sign(control) == Some(false) { 0.0 } else { angle })
 }
 
 /// Follows them over a library.

@@ -1,7 +1,7 @@
 //! Angles of rotary axes, where the two controls go to an angle by two ways: what was turned, the shorter one, or that of the sign.
 //!
 //! Law: an axis turns by as much as it turned by, and the same way. On a control of signs an absolute word is a place within one
-//! turn, and its sign the way there; elsewhere it is what the axis has turned by, or the shorter way is taken. Side conditions:
+//! turn, and its sign the way there, that of zero too where the control reads it; elsewhere it is what the axis has turned by, or the shorter way is taken. Side conditions:
 //! where the axis stands before is known from the text, and the angle is a number; less than a whole turn; less than half of one
 //! where the shorter way is taken. From there to a control that turns back by all turns the words stay: a rapid move to an angle ends there
 //! either way, and is told of; a cut must turn by less than half a turn, within one. What is in increments stays. Where how many whole turns were made before is not known, but how
@@ -11,7 +11,7 @@
 use super::rotary_places::{AXES, Places, RotaryPlaces, Stands, TURN, Way, degrees, is_aside, parts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::assumptions::shop::are_mills;
 use crate::legalize::features::Features;
@@ -19,9 +19,19 @@ use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
-/// True between two mills that go to an angle by two ways, if rotary axes move.
+/// Whether the sign of zero is a way on a control, where somebody says it.
+pub(in crate::legalize) fn zero_sign(control: &Control) -> Option<bool> {
+    let row = control.behaviour(Question::RotaryZeroSign).filter(|row| row.origin.is_settled())?;
+    row.value.parse().ok()
+}
+
+/// True between two mills that go to an angle by two ways, if rotary axes move; and where the sign is the way on both, but
+/// it is not known that both read the sign of zero.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    Way::differ(context.source, context.target)
+    let sides = [context.source, context.target];
+    let zeros = sides.iter().all(|control| Way::of(control) == Way::Sign)
+        && sides.iter().any(|control| zero_sign(control) != Some(true));
+    (zeros || Way::differ(context.source, context.target))
         && are_mills(context)
         && AXES.iter().any(|role| features.role(*role))
 }
@@ -32,6 +42,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let source = context.source;
     let places = RotaryPlaces::of(module, &facts, source, &context.origins);
     let ways = (Way::of(source), Way::of(context.target));
+    let same = ways.0 == ways.1;
     // Where the axes of a target stand that turns back by all turns.
     let there = (ways == (Way::Shortest, Way::Turns))
         .then(|| RotaryPlaces::by(Way::Turns, module, &facts, source, &context.origins));
@@ -54,14 +65,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 let mut after = None;
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
                     match state.op(Group::Distance) {
-                        Some(Op::Incremental) => {}
+                        Some(Op::Incremental) => changed |= ways.1 == Way::Sign && unsigned(nc, source),
                         Some(_) => {
                             let done =
                                 angles(nc, (&from, target.as_ref()), ways, ((index, span), kind), context);
                             changed |= done != Done::Nothing;
                             after = aside.filter(|_| done == Done::Turns);
                         }
-                        None if moves_axis(nc) => refuse(MODE, MODE_HELP, (index, span), context),
+                        None if moves_axis(nc) && (!same || minus_zero(nc, source)) => {
+                            refuse(MODE, MODE_HELP, (index, span), context)
+                        }
                         None => {}
                     }
                 }
@@ -140,7 +153,7 @@ fn angles(
     (place, kind): ((usize, Span), Kind),
     context: &mut Context<'_>,
 ) -> Done {
-    if nc.has(Op::MachineOnce) && moves_axis(nc) {
+    if nc.has(Op::MachineOnce) && moves_axis(nc) && ours != theirs {
         refuse(MACHINE, MACHINE_HELP, place, context);
     }
     if is_aside(nc) {
@@ -156,12 +169,29 @@ fn angles(
         let Some(axis) = AXES.iter().position(|axis| axis == role) else { continue };
         let Some(angle) = degrees(value, context.source) else {
             match round {
+                // Where it is computed to zero, its sign is read or not.
+                _ if ours == theirs => {
+                    if matches!(value, Expr::Negate(_)) {
+                        zero_rests(place, context);
+                    }
+                }
                 true => other_way_round(place, context),
                 false => refuse(COMPUTED, HELP, place, context),
             }
             continue;
         };
         let stands = from.of(axis);
+        let turned = turned(stands, angle, ours);
+        if ours == theirs && !is_minus_zero(angle) {
+            continue;
+        }
+        if is_minus_zero(angle)
+            && ours == Way::Sign
+            && turned != Some(0.0)
+            && zero_sign(context.source).is_none()
+        {
+            context.rests_on_source(place.0, place.1, Question::RotaryZeroSign);
+        }
         // The words stay there.
         if let Some(there) = there {
             match alike(stands, there.of(axis), angle) {
@@ -171,7 +201,22 @@ fn angles(
             }
             continue;
         }
-        let written = match (written(stands, angle, ours, theirs), turned(stands, angle, ours)) {
+        let written = match (written(stands, angle, ours, theirs), turned) {
+            (Ok(written), Some(by))
+                if is_minus_zero(written) && by < 0.0 && kind.alone && !reads_zero(context) =>
+            {
+                done = Done::Turns;
+                by
+            }
+            (Ok(written), _) if is_minus_zero(written) && theirs == Way::Sign && !reads_zero(context) => {
+                zero_rests(place, context);
+                written
+            }
+            // The same word does the same there.
+            (Err((UNKNOWN | EITHER, _)), _) if ours == theirs => {
+                zero_rests(place, context);
+                continue;
+            }
             (Err((UNKNOWN | TURNED, _)), Some(by)) if kind.alone && theirs == Way::Turns => {
                 done = Done::Turns;
                 by
@@ -204,6 +249,50 @@ fn angles(
         nc.items.insert(0, NcItem::Op(Op::Incremental));
     }
     done
+}
+
+fn is_minus_zero(angle: f64) -> bool {
+    angle == 0.0 && angle.is_sign_negative()
+}
+
+/// True for a block with an angle that is zero with a minus.
+fn minus_zero(nc: &Nc, control: &Control) -> bool {
+    let zero = |value| degrees(value, control).is_some_and(is_minus_zero);
+    nc.items
+        .iter()
+        .any(|item| matches!(item, NcItem::Word(role, value) if AXES.contains(role) && zero(value)))
+}
+
+/// Writes zeros of increments without a sign, as they are no way; true if there was one.
+fn unsigned(nc: &mut Nc, control: &Control) -> bool {
+    let mut changed = false;
+    for item in &mut nc.items {
+        if let NcItem::Word(role, value) = item
+            && AXES.contains(role)
+            && degrees(value, control).is_some_and(is_minus_zero)
+        {
+            *value = Expr::Number(0.0);
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// True where the target is known to read the sign of zero.
+fn reads_zero(context: &Context<'_>) -> bool {
+    zero_sign(context.target) == Some(true)
+}
+
+/// Asks whether the target reads the sign of a zero; refuses the block where it is known not to.
+fn zero_rests((index, span): (usize, Span), context: &mut Context<'_>) {
+    match zero_sign(context.target) {
+        Some(false) => {
+            let finding = Diagnostic::new(Code::NoEquivalent, span, ZERO).with_help(ZERO_HELP);
+            context.add_once(index, ZERO, finding);
+        }
+        Some(true) => {}
+        None => context.rests_on_target(index, span, Question::RotaryZeroSign),
+    }
 }
 
 /// True where an axis that takes the shorter way and one that turns back all turns go to an angle alike.
@@ -294,5 +383,8 @@ const MODE: &str = "whether G90 or G91 is in force at this angle is not known";
 const MODE_HELP: &str = "write G90 or G91 before it";
 const MACHINE: &str = "a rotary axis in machine coordinates: no source says which way it turns";
 const MACHINE_HELP: &str = "write the move without the rotary axis, or in coordinates of the program";
+const ZERO: &str =
+    "the rotary axis turns to zero the minus way here, and the target does not read the sign of a zero";
+const ZERO_HELP: &str = "turn the axis in a block of its own, after an angle of this program, or write how far it turns, in a block with G91";
 const HELP: &str = "write how far the axis turns, in a block with G91; or bring it to a known angle before, by G28 or G92 in this \
                     program";

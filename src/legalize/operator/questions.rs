@@ -6,10 +6,12 @@
 //! Law of a print: the same text and values go to the output port, since the target prints nowhere else; the
 //! digits of a value are four before and four after the point, because no source gives the source's format.
 
+use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{
-    Class, Expr, Module, OutputPart, Place, PrintPart, Program, SourceInfo, Stmt, StmtKind, Stmts, Var,
+    Class, Expr, Module, NcItem, OutputPart, Place, PrintPart, Program, SourceInfo, Stmt, StmtKind, Stmts,
+    Var,
 };
 use crate::legalize::{Context, Registers};
 
@@ -44,11 +46,18 @@ fn ask_all(module: &mut Module, registers: &Registers, context: &mut Context<'_>
     }
 }
 
-/// The text printed right before, to which the cursor was left.
+/// The text printed right before, to which the cursor was left. What ends spindle and coolant for the question may stand between.
 fn take_question(out: &mut Stmts, serial: bool) -> Option<String> {
-    let at = out.iter().rposition(|stmt| stmt.kind != StmtKind::Comment)?;
+    let quiet = |stmt: &Stmt| match &stmt.kind {
+        StmtKind::Comment => true,
+        StmtKind::Nc(nc) => {
+            nc.items.iter().all(|item| matches!(item, NcItem::Op(Op::SpindleStop | Op::CoolantOff)))
+        }
+        _ => false,
+    };
+    let at = out.iter().rposition(|stmt| !quiet(stmt))?;
     // What was printed on the same line before it would be lost.
-    let before = out[..at].iter().rfind(|stmt| stmt.kind != StmtKind::Comment);
+    let before = out[..at].iter().rfind(|stmt| !quiet(stmt));
     if before.is_some_and(|stmt| matches!(stmt.kind, StmtKind::Print { stay: true, .. })) {
         return None;
     }

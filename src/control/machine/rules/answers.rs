@@ -36,6 +36,11 @@ pub(super) fn are(control: &Control, question: Question, with: &str) -> bool {
     control.behaviour(question).is_some_and(|row| row.value == with)
 }
 
+/// True where the sign of an angle that is zero is a way too; so it is taken where nobody says it.
+pub(super) fn zero_has_sign(control: &Control) -> bool {
+    !are(control, Question::RotaryZeroSign, "false")
+}
+
 /// True for a mill whose rotary axes go the way that the sign of an angle says.
 pub(super) fn turns_by_sign(control: &Control) -> bool {
     control.machine() == Machine::Mill && are(control, Question::RotaryWay, "sign")
