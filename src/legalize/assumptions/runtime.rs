@@ -4,7 +4,7 @@
 //! cycle's planes may be used in the other mode of coordinates than they were given in. The conversion takes both
 //! controls to do the same then. Where no source says what one of them does, a person has to look.
 
-use crate::canon::{Func, Group, Op, Pause, Role, Running};
+use crate::canon::{Func, Group, Op, Pause, Role, Running, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Side, matters};
 use crate::ir::analysis::dataflow::Lattice;
@@ -153,7 +153,10 @@ fn value(e: &Expr, index: usize, span: Span, zero: &dyn Fn(&Expr) -> bool, conte
         Expr::Call(Func::Sqrt, arguments) if !arguments.iter().all(never_negative) => {
             both(context, index, span, Question::SqrtOfNegative);
         }
-        Expr::System(state, subscripts) if subscripts.iter().any(|e| e.constant().is_none()) => {
+        Expr::System(state, subscripts)
+            if subscripts.iter().any(|e| e.constant().is_none())
+                && !has_all(*state, subscripts.len(), context) =>
+        {
             let what = format!(
                 "the number of '{state}' is computed: make sure that both controls have it; a number that \
                  one of them does not have means something unknown"
@@ -166,6 +169,16 @@ fn value(e: &Expr, index: usize, span: Span, zero: &dyn Fn(&Expr) -> bool, conte
         _ => {}
     }
 }
+
+/// True where the target has the state by each number that the source has it by.
+fn has_all(state: Sys, subscripts: usize, context: &Context<'_>) -> bool {
+    let has = |control: &Control, number: u32| control.system_address(state, &[number]).is_some();
+    let mut ours = (1..NUMBERS).filter(|number| has(context.source, *number)).peekable();
+    subscripts == 1 && ours.peek().is_some() && ours.all(|number| has(context.target, number))
+}
+
+/// No control has offsets of more numbers.
+const NUMBERS: u32 = 1000;
 
 const PLACE: &str = "of one of the two controls alone it is known whether it goes to a position beside a repeat count of 0: write the \
      position into a block of its own, after the end of the cycle, or say it of the other control in its machine profile, \

@@ -9,7 +9,7 @@
 //! Counter-example: `G#1 X5.` with `#1` = 4, where X is the time of a dwell.
 
 use crate::assume::Predicate;
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, OperandPlace, Side};
 use crate::ir::analysis::{Assigned, Constant, Ranges, Summaries, Values};
@@ -144,6 +144,10 @@ fn chain<'p>(
     let (item, letter, value) = computed.next().filter(|_| computed.next().is_none())?;
     let few = |values: Values| match values {
         Values::Few(numbers) if !numbers.is_empty() => Some(numbers),
+        // Of a loop's counter the bounds are known.
+        Values::Between { low, high, whole: true } if high - low < MOST as f64 => {
+            Some((0..MOST).map(|more| low + more as f64).take_while(|number| *number <= high).collect())
+        }
         _ => None,
     };
     let sure = few(values.sure.at(id, at, value));
@@ -153,17 +157,22 @@ fn chain<'p>(
     };
     let may_be_vacant =
         value.may_be_vacant() && found.as_ref().is_none_or(|found| found.contains(&Constant::Vacant));
+    // What was read of a group with few codes is one of them, whatever anybody edits.
+    let in_force = |constant: &Constant| matches!(constant, Constant::State(..));
+    let is_read = found.as_ref().is_some_and(|found| !found.is_empty() && found.iter().all(in_force));
     let listed = found.and_then(|found| {
         let numbers = found.into_iter().filter(|constant| *constant != Constant::Vacant);
         let number = |constant| match constant {
-            Constant::Number(number) => Some(number),
+            Constant::Number(number) => Some(vec![number]),
+            Constant::State(Sys::Modal, group) => read_codes(&group, source),
             _ => None,
         };
-        let mut numbers = numbers.map(number).collect::<Option<Vec<f64>>>()?;
+        let mut numbers = numbers.map(number).collect::<Option<Vec<_>>>()?.concat();
         numbers.sort_by(f64::total_cmp);
+        numbers.dedup();
         Some(numbers)
     });
-    let (may_miss, is_listed) = (sure.is_none(), listed.is_some());
+    let (may_miss, is_listed) = (sure.is_none() && !is_read, listed.is_some());
     let numbers = listed.or(sure).or_else(|| few(values.likely.at(id, at, value))).filter(|numbers| {
         (1..=MOST).contains(&numbers.len()) && numbers.iter().all(|n| n.fract() == 0.0 && *n >= 0.0)
     })?;
@@ -178,6 +187,15 @@ fn chain<'p>(
         choices.push(choice(nc, letter, number, source, &mut doubts)?);
     }
     Some(Chain { letter, item, value: value.clone(), choices, may_be_vacant, may_miss, doubts })
+}
+
+/// The codes of a modal group by its number, for a group of which each code is listed: whatever a program reads there is one of them.
+fn read_codes(group: &[f64], source: &Control) -> Option<Vec<f64>> {
+    let [number] = group else { return None };
+    let closed = [Group::Distance, Group::ReturnPlane, Group::Plane];
+    let group = closed.into_iter().find(|group| group.number().is_some_and(|n| f64::from(n) == *number))?;
+    let rows = source.dialect().codes.iter().filter(|row| row.op.group() == group && row.preferred);
+    rows.map(|row| row.head().filter(|head| head.letter == 'G').map(|head| head.number())).collect()
 }
 
 /// The block with a constant code; none if that is another kind of block.

@@ -13,6 +13,7 @@ mod left_zeros;
 pub(in crate::legalize) mod lookahead;
 pub(in crate::legalize) mod machine_codes;
 pub(in crate::legalize) mod missing;
+pub(in crate::legalize) mod offset_chains;
 pub(in crate::legalize) mod pauses;
 pub(in crate::legalize) mod substitutes;
 pub(in crate::legalize) mod through_coolant;

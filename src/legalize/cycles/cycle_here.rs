@@ -126,10 +126,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 }
                 let what = if bare && !drills && !agree {
                     nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
-                    Some(
-                        "L0 keeps this block from drilling: the source is taken to store a cycle without \
-                         a position. Check that the target accepts L0",
-                    )
+                    let stores = context.target.behaviour(Question::CycleL0Stores);
+                    let settled = stores.is_some_and(|row| row.value == "true" && row.origin.is_settled());
+                    (!settled).then_some(STORED)
                 } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
                     match words() {
                         Some([x, y]) => {
@@ -174,6 +173,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
+const STORED: &str = "a count of 0 keeps this block from drilling: the source is taken to store a cycle without a position. Check that \
+                      the target stores a cycle with such a count";
 const TURNS: &str = "a rotary axis turns alone while a drilling cycle is in force: the source drills nothing there, and the target does: end \
      the cycle (G80) before it";
 

@@ -260,6 +260,7 @@ const CALLS: &[Pass] = &[
         .when(jump_chains::concerns)
         .needs(&["return-to"])
         .changes_flow(),
+    super::moves::OFFSET_CHAINS,
     Pass::reports("nesting", "reports calls that nest deeper than the target takes", nesting::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::LocalCall))
         .needs(&["outline", "chain", "modal-calls"]),

@@ -4,6 +4,7 @@ use super::Pass;
 use super::lathe::is_mill;
 use crate::canon::{Op, Role};
 use crate::legalize::assumptions::barred;
+use crate::legalize::codes::offset_chains;
 use crate::legalize::cycles::{
     hole_circles, leadless_taps, pockets, rigid_cycles, rigid_taps, tap_leads, tapping, turn_feeds,
 };
@@ -19,6 +20,16 @@ use crate::legalize::offsets::{
     length_radius, named_lengths, no_shifts, radius_words, set_position, table_writes, tool_lengths,
     written_tools,
 };
+
+/// Where computed codes and jumps are written out.
+pub(super) const OFFSET_CHAINS: Pass = Pass::rewrites(
+    "offset-chains",
+    "computed work offsets become comparisons with each number",
+    offset_chains::run,
+)
+.when(offset_chains::concerns)
+.needs(&["jump-chains"])
+.changes_flow();
 
 /// Before the tool lengths are asked about.
 pub(super) const LATER_LENGTHS: Pass = Pass::edits(

@@ -1,6 +1,7 @@
 //! Modal codes that are read, where the target has no variable for them.
 //!
-//! Laws: what is in force of a group is a constant where every way to the place names the same operation; else, on a
+//! Laws: what is in force of a group is a constant where every way to the place names the same operation, and the unit where the target
+//! is set to one, and has no code for another; else, on a
 //! target that tests codes, it is the number on the source of the code that the target finds in force. Side conditions of
 //! the second: the group is one whose codes stay as the source wrote them, so no motion codes where cycles are written
 //! out; and what the program may find in force at its start is in force on the target too, which the code that the
@@ -8,13 +9,13 @@
 
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Units};
 use crate::ir::analysis::Setting;
 use crate::ir::{Cond, Expr, Module, Program, Relation, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, Position, PreStatement, Rewriter, rewrite_program};
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// G54 to G59.
 const STANDARD_OFFSETS: u32 = 6;
@@ -101,6 +102,15 @@ pub(super) fn number_of(state: &Modal, group: Group, source: &Control) -> Option
     Some(number)
 }
 
+/// The number of the unit in force, of a target that is set to one unit and has no code for another.
+fn unit(group: Group, source: &Control, target: &Control) -> Option<f64> {
+    let has = |op| target.code_for(op, &BTreeMap::new()).is_some();
+    let fixed = group == Group::Units && !has(Op::Inch) && !has(Op::Metric);
+    let units = target.units().filter(|_| fixed)?;
+    let op = if units == Units::Inch { Op::Inch } else { Op::Metric };
+    codes(group, source).into_iter().find(|(other, ..)| *other == op).map(|(.., number)| number)
+}
+
 /// Puts constants where the text says what is in force.
 fn known(module: &mut Module, context: &Context<'_>) -> bool {
     let mut changed = false;
@@ -114,7 +124,8 @@ fn known(module: &mut Module, context: &Context<'_>) -> bool {
             let mut put = |e: &mut Expr, state: &Modal| {
                 e.walk_mut(&mut |e| {
                     if let Some((group, more)) = group_of(e, target)
-                        && let Some(number) = number_of(state, group, source)
+                        && let Some(number) =
+                            number_of(state, group, source).or_else(|| unit(group, source, target))
                     {
                         *e = Expr::Number(number + more);
                         changed = true;
