@@ -10,4 +10,5 @@ pub(in crate::legalize) mod questions;
 pub(in crate::legalize) mod renamed;
 mod rounded;
 pub(in crate::legalize) mod shown_stops;
+pub(in crate::legalize) mod switches;
 pub(in crate::legalize) mod variable_names;

@@ -12,9 +12,17 @@ use crate::legalize::lathe::contours;
 use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers, skip_runs};
 use crate::legalize::moves::start;
 use crate::legalize::offsets::still_blocks;
-use crate::legalize::operator::{letters, messages, ports, questions, renamed};
+use crate::legalize::operator::{letters, messages, ports, questions, renamed, switches};
 use crate::legalize::registers::{allocate, clear, frames, interface, outside, standing, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
+
+/// Beside the output that is left out.
+pub(super) const SWITCHES: Pass = Pass::rewrites(
+    "switches",
+    "writes to the operator's switches go where the target has no variable for them",
+    switches::run,
+)
+.when(switches::concerns);
 
 pub(super) const EXPRESSIONS: &[Pass] = &[
     Pass::rewrites(

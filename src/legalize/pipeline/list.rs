@@ -142,6 +142,7 @@ const STRUCTURE: &[Pass] = &[
         .when(mixed_places::concerns),
     Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
         .when(omitted::concerns),
+    super::late::SWITCHES,
     Pass::edits("variable-names", "names of variables go where the target shows none", variable_names::run)
         .when(variable_names::concerns),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)

@@ -1,6 +1,6 @@
-//! Codes of a machine's builder that the target has not, and what the source's profile puts in their place.
+//! Codes of a machine's builder and switches of the operator that the target has not, and what the source's profile puts in their place.
 
-use crate::canon::Act;
+use crate::canon::{Act, Sys};
 use crate::control::trace::EventKind;
 use crate::dialect::Without;
 use crate::verify::sides::Side;
@@ -8,6 +8,18 @@ use crate::verify::sides::Side;
 /// The text of a code that is left out.
 pub fn is_left_out(source: &Side<'_>, target: &Side<'_>, what: &EventKind) -> Option<String> {
     without_code(source, target, what).filter(|(without, _)| *without == Without::Omit).map(|(_, text)| text)
+}
+
+/// True for a write to one of the operator's own switches, of which the target has no variable: no run of the part shows it. No exact
+/// stops (bit 2) is no such write.
+pub fn is_switch(target: &Side<'_>, what: &EventKind) -> bool {
+    let EventKind::Write { state, value, .. } = what else { return false };
+    let most = match state {
+        Sys::SingleBlock => 1.0,
+        Sys::FeedHold => 3.0,
+        _ => return false,
+    };
+    target.control.system_run(*state).is_none() && (0.0..=most).contains(value)
 }
 
 /// The text of a stop or an alarm in the place of a code, and true after which the target does nothing more.

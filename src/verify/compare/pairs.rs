@@ -71,7 +71,9 @@ pub(super) fn acts<'r>(
     target: (&Side<'_>, &'r Run),
     [ours, theirs]: &[Order<'r>; 2],
 ) -> [Vec<Act<'r>>; 2] {
-    let left = |what: &EventKind| builders::is_left_out(source.0, target.0, what).is_some();
+    let left = |what: &EventKind| {
+        builders::is_left_out(source.0, target.0, what).is_some() || builders::is_switch(target.0, what)
+    };
     let [mut ours, mut theirs] = observed(source, target, [ours, theirs], &left);
     if !std::ptr::eq(source.0, target.0) && [source, target].iter().any(|one| lacks_messages(one.0.control)) {
         (ours, theirs) = (as_messages(ours, source.0.control), as_messages(theirs, target.0.control));
