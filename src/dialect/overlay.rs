@@ -4,7 +4,7 @@ use super::extents;
 use super::overlay_settings::leave_changes_to_code;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
-use super::{Behaviour, Control, Dialect, Entry, Mark, SystemVariable, VariableClass, registry};
+use super::{Behaviour, Control, Dialect, Entry, Mark, Question, SystemVariable, VariableClass, registry};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -262,8 +262,8 @@ impl Overlay {
             .retain(|row| row.when.is_some() || row.machine.is_some() || !special.contains(&row.letter));
     }
 
-    /// Numbers the axes as this machine does: a run over axes in another order
-    /// becomes one run an axis. Without a profile a lathe has X and Z.
+    /// Numbers the axes as this machine does: a run over axes becomes one run for each axis. They count in the profile's order, or
+    /// by their letters on every machine. Without a profile a lathe has X and Z.
     fn axes(&mut self, dialect: &mut Dialect) {
         let lathe = self.profile.machine == Some(super::Machine::Lathe);
         let axes = match &self.profile.axes {
@@ -274,11 +274,18 @@ impl Overlay {
         if axes.iter().enumerate().any(|(at, axis)| axes.iter().take(at).any(|earlier| earlier == axis)) {
             self.fault("axes", "an axis stands twice".into(), "name each axis once".into());
         }
+        let lettered = |row: &Behaviour| row.question == Question::AxesNumbered && row.value == "letter";
+        // What stands at each number: none if this machine has not the axis of that letter.
+        let numbered: Vec<Option<Axis>> = match dialect.behaviours.iter().any(lettered) {
+            true => Axis::ALL.iter().map(|axis| axes.contains(axis).then_some(*axis)).collect(),
+            false => axes.iter().copied().map(Some).collect(),
+        };
         dialect.system = std::mem::take(&mut dialect.system)
             .into_iter()
             .flat_map(|row| match (row.first, row.subscripts.split_last()) {
                 (Some(first), Some((last, rest))) if last.axis => (0..last.count)
-                    .zip(axes.iter().skip(last.from.saturating_sub(1) as usize))
+                    .zip(numbered.iter().skip(last.from.saturating_sub(1) as usize))
+                    .filter_map(|(at, axis)| Some((at, (*axis)?)))
                     .map(|(at, axis)| SystemVariable {
                         first: first.checked_add(at * last.step),
                         subscripts: rest.to_vec(),

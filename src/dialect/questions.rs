@@ -251,7 +251,7 @@ questions! {
     ThreadFlanks "thread.flanks" OneOf(&["leading.first", "trailing.first", "unknown"]), "in which order the passes of a thread that is cut on both flanks take them: first the one \
                                                                                         that leads along the thread, or the other", if "role:thread.infeed";
     CornerLetters "corner.letters" OneOf(&["axes", "letters"]), "how a corner without a comma is written: I, K and R, or C, R and A", if "said";
-    AxesNumbered "axes.numbered" OneOf(&["profile", "unknown"]), "the order in which the axes after the first have the numbers of their variables: that of the axes in the profile", if "said";
+    AxesNumbered "axes.numbered" OneOf(&["profile", "letter", "unknown"]), "the order in which the axes have the numbers of their variables: that of the axes in the profile, or that of the letters X Y Z A B C U V W on every machine", if "said";
     HoleSidePlane "hole.side.plane" OneOf(&["diameter", "unknown"]), "what the retract plane of a cycle that drills along X of a lathe is: a diameter, as X is", if "said";
     HoleWaitBuilders "hole.wait.builders" OneOf(&["none", "unknown"]), "what P of a builder's code, as the speed of a live tool, is to a later hole of a lathe that has no P: no wait", if "said";
     LogicRank "logic.rank" OneOf(&["listed", "unknown"]), "the order of AND, OR, XOR and NOT without brackets: as the table ranks them", if "said";

@@ -4,7 +4,7 @@
 //! to have the answer of the other machine, or else its first one. If fewer programs are written with such answers than without
 //! them, the questions with several answers are left open.
 
-use super::{AskedStart, Survey};
+use super::{AskedStart, MayCall, Survey};
 use crate::canon::Op;
 use crate::dialect::{
     Control, DecimalPoint, Plain, Profile, Question, QuestionGroup, Settled, Side, SiteCode, Units, Without,
@@ -28,7 +28,13 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     };
     let codes = survey.codes.iter().take(CODES).map(|asked| -> Answer {
         let (code, words, op) = (asked.code.clone(), asked.words.clone(), asked.op);
-        Box::new(move |profile| profile.site.push(site(&code, &words, op)))
+        match asked.calls.first().filter(|_| super::callers::is_call(&asked.calls, &code)).cloned() {
+            Some(MayCall { program, arguments, .. }) => Box::new(move |profile| {
+                let row = site(&code, &[], op);
+                profile.site.push(SiteCode { calls: Some(program), arguments, without: None, ..row });
+            }),
+            None => Box::new(move |profile| profile.site.push(site(&code, &words, op))),
+        }
     });
     // The unit has a key of its own.
     let units = survey.start.iter().any(AskedStart::is_unit) && chosen;

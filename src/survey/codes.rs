@@ -1,6 +1,7 @@
 //! Codes of which a machine profile must say what the builder made of them.
 
 use super::beside::{Beside, beside, most, switch};
+use super::callers::{self, MayCall};
 use super::shape::{NAMED, Places};
 use crate::canon::Op;
 use crate::diag::{Asks, Diagnostic, Severity};
@@ -30,6 +31,9 @@ pub struct AskedCode {
     /// What it is likely to do, where a word of the builder stands beside a code of the control: `M3 P11`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub op: Option<Op>,
+    /// The programs of the library that it may call, for parameters of the control give such programs a code.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub calls: Vec<MayCall>,
 }
 
 /// True of a finding that waits for what a code does.
@@ -103,6 +107,7 @@ pub(super) fn asked(
             comment: most(all.iter().filter_map(|one| text(one)?.comment.clone())),
             block: all.first().and_then(text).map(|beside| beside.block.clone()).unwrap_or_default(),
             op: ops.get(&code).copied(),
+            calls: callers::may_call(&code, inputs, source, programs),
             // What stands in the code's own name is no word of it.
             words: if ops.contains_key(&code) {
                 Vec::new()

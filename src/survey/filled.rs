@@ -8,7 +8,7 @@ use super::keys::{needed_by, setting_of};
 use super::start::lines as lines_of_start;
 use super::words::with_words;
 use super::{AskedSetting, AskedStart, AskedWord, Survey};
-use crate::dialect::{Control, Machine, Profile, Settled, Side};
+use crate::dialect::{Control, Profile, Settled, Side};
 use crate::report::{Fact, Questions};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -78,10 +78,10 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     }
     let point = survey.with_questions(|questions| point(questions, control));
     let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
-    let further = if side == Side::Source { survey.further_axes.as_slice() } else { &[] };
+    let axes = super::variables::axes_line(survey, control);
     let unit =
         unit.first().map_or(String::new(), |unit| format!(" ({})", counted(unit.programs, &unit.places)));
-    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), (&unit, further));
+    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), (&unit, &axes));
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     text = match side {
@@ -268,16 +268,9 @@ fn with_machine(
     text: &str,
     said: &Profile,
     (lathe, point): (Option<String>, Option<String>),
-    (unit, further): (&str, &[char]),
+    (unit, axes): (&str, &str),
 ) -> String {
     let kind = lathe.as_deref().unwrap_or("machine = \"mill\" or \"lathe\"");
-    let axes = match said.machine {
-        Some(Machine::Lathe) => "axes = [\"X\", \"Z\"] # in the order of the control's axis numbers",
-        _ => "axes = [\"X\", \"Y\", \"Z\"] # in the order of the control's axis numbers",
-    };
-    // Those that programs move are there.
-    let more: String = further.iter().map(|letter| format!(", \"{letter}\"")).collect();
-    let axes = axes.replacen(']', &format!("{more}]"), 1);
     let Ok(profile) = Profile::read(text) else { return text.to_owned() };
     let units =
         format!("units = \"inch\" or \"metric\" # what its programs are in where no code says so{unit}");
@@ -286,7 +279,7 @@ fn with_machine(
         (said.machine.is_none() || lathe.is_some(), kind),
         (said.units.is_none(), units.as_str()),
         (point.is_some(), point.as_deref().unwrap_or_default()),
-        (said.axes.is_none(), axes.as_str()),
+        (said.axes.is_none(), axes),
         (profile.place("reserved").is_none(), "reserved = [] # variables that programs must not be given"),
     ];
     let missing = all.iter().filter(|(missing, _)| *missing);

@@ -5,6 +5,7 @@
 
 mod answered;
 mod beside;
+mod callers;
 mod codes;
 mod digits;
 mod filled;
@@ -21,6 +22,7 @@ mod there;
 mod variables;
 mod words;
 
+pub use callers::MayCall;
 pub use codes::AskedCode;
 pub use filled::{Unfit, filled};
 pub use json::json;
@@ -33,6 +35,7 @@ pub use there::AskedThere;
 pub use variables::AskedVariables;
 pub use words::AskedWord;
 
+use crate::canon::Role;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::{Control, Question, Settled};
 use crate::library::{
@@ -74,7 +77,7 @@ pub struct Survey<'a> {
     /// Variables that programs use and the table of their control has not.
     pub variables: Vec<AskedVariables>,
     /// The letters of the axes that its programs move and that not every such machine has.
-    further_axes: Vec<char>,
+    further_axes: Vec<Role>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.

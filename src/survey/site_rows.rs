@@ -35,13 +35,16 @@ pub(super) fn lines(survey: &Survey<'_>) -> String {
 }
 
 fn line(text: &mut String, code: &AskedCode, goes: bool) {
+    let (called, may_call) = super::callers::answer(&code.calls, &code.code);
     let answer = match (code.op, goes) {
+        _ if let Some(answer) = &called => answer.clone(),
         (Some(op), _) => format!("op = \"{op}\""),
         (None, true) => "target = \"\"".to_owned(),
         (None, false) => "name = \"\"".to_owned(),
     };
     let said = code.comment.as_ref().and_then(|(comment, _)| said(comment));
-    let words: Vec<String> = code.words.iter().map(|letter| format!("{letter} = \"{letter}\"")).collect();
+    let letters = code.words.iter().filter(|_| called.is_none());
+    let words: Vec<String> = letters.map(|letter| format!("{letter} = \"{letter}\"")).collect();
     let keys = [Some(answer), said, in_braces(&words)].into_iter().flatten().collect::<Vec<_>>().join(", ");
     let programs = if code.programs == 1 { String::new() } else { format!("{} programs: ", code.programs) };
     // What lets an axis go after a hole stands in no block: the control gives it by itself.
@@ -57,6 +60,7 @@ fn line(text: &mut String, code: &AskedCode, goes: bool) {
         Some(_) => "; where P says the spindle that the target's code turns too; else name = \"\" in place of op",
         None => "",
     });
+    about.push_str(&may_call);
     about.push_str(match (words.is_empty(), goes) {
         (true, _) => "",
         (false, true) => {

@@ -88,7 +88,7 @@ fn codes(out: &mut String, codes: &[AskedCode]) {
     out.push_str(
         "The source's profile says it in [[site]]; what a builder made of a code stands in the machine's own manual.\n",
     );
-    for AskedCode { code, programs, frees, places, comment, block, .. } in codes.iter().take(CODES) {
+    for AskedCode { code, programs, frees, places, comment, block, calls, .. } in codes.iter().take(CODES) {
         let frees = if *frees > 0 { format!(", {frees} wait for nothing else") } else { String::new() };
         let places = places.join(", ");
         let _ = writeln!(out, "  {code:<6} {}{frees}: {}", count(*programs), shown(&places));
@@ -98,6 +98,14 @@ fn codes(out: &mut String, codes: &[AskedCode]) {
             }
             None => writeln!(out, "         {}", shown(block)),
         };
+        if let Some(called) = calls.first().filter(|_| super::callers::is_call(calls, code)) {
+            let more = if calls.len() > 1 { ", or another such program of the library" } else { "" };
+            let _ = writeln!(
+                out,
+                "         does it call O{}{more}? parameter {} says it",
+                called.program, called.parameter
+            );
+        }
     }
     let left = codes.len().saturating_sub(CODES);
     if left > 0 {

@@ -6,7 +6,7 @@ use super::filled::{ASKS, TELLS, after_dialect, spliced};
 use super::shape::{NAMED, Places};
 use crate::canon::{Op, Role};
 use crate::diag::Asks;
-use crate::dialect::{Control, Machine, Profile};
+use crate::dialect::{Control, Machine, Profile, Question};
 use crate::ir::Module;
 use crate::library::ProgramReport;
 use serde::Serialize;
@@ -91,7 +91,7 @@ pub(super) fn asked(
 }
 
 /// The letters of the axes that programs move and that not every machine of the kind has: those that turn, and Y of a lathe.
-pub(super) fn further_axes(source: &Control, module: &Module) -> Vec<char> {
+pub(super) fn further_axes(source: &Control, module: &Module) -> Vec<Role> {
     let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let mut roles = [(Role::Y, false), (Role::A, false), (Role::B, false), (Role::C, false)];
     let mut on_face = false;
@@ -111,8 +111,21 @@ pub(super) fn further_axes(source: &Control, module: &Module) -> Vec<char> {
             *moved |= counts && nc.word(*role).is_some();
         }
     }
-    let moved = roles.into_iter().filter(|(_, moved)| *moved);
-    moved.filter_map(|(role, _)| source.letter(role, None).map(|(letter, _)| letter)).collect()
+    roles.into_iter().filter(|(_, moved)| *moved).map(|(role, _)| role).collect()
+}
+
+/// The line of a profile that lists the axes: those that every machine of the kind has, and those that the programs move.
+pub(super) fn axes_line(survey: &Survey<'_>, control: &Control) -> String {
+    let lathe = control.profile().machine == Some(Machine::Lathe);
+    let lettered = control.behaviour(Question::AxesNumbered).is_some_and(|row| row.value == "letter");
+    let letters = survey.further_axes.iter().filter_map(|role| control.letter(*role, None));
+    let more: String = letters.map(|(letter, _)| format!(", \"{letter}\"")).collect();
+    let (first, how) = match (lathe, lettered) {
+        (true, _) => ("\"X\", \"Z\"", "in the order of the control's axis numbers"),
+        (_, true) => ("\"X\", \"Y\", \"Z\"", "those that the machine has"),
+        (_, false) => ("\"X\", \"Y\", \"Z\"", "in the order of the control's axis numbers"),
+    };
+    format!("axes = [{first}{more}] # {how}")
 }
 
 /// All variables of the machine with those that are asked: what `variables` of its profile would be.

@@ -561,3 +561,38 @@ fn what_a_tool_word_does_again_is_asked_where_a_length_waits_for_it() {
     assert!(run.out.contains("0 refused"), "{}", run.out);
     assert!(shop.read("out/a.nc").contains("T01\nN"), "{}", shop.read("out/a.nc"));
 }
+
+/// A parameter of the control may let the code call a program of the library: as a code of the target it would be another one.
+#[test]
+fn a_code_that_may_call_a_program_of_the_library_is_asked_for_it() {
+    let main = "O1\nG21 G90 G54 G17 G40 G80 G94\nG0 B0.\nG100 X1.\nM86 T2\nM51\nG0 X1.\nM30\n";
+    let shop = Shop::with(&[
+        ("lib/o1.nc", main),
+        ("lib/o9010.nc", "O9010(ROW)\nG0 X#24\nM99\n"),
+        ("lib/o9021.nc", "O9021(CHECK)\n(PARAM 6081 = 86)\n#500=#20\nM99\n"),
+        ("lib/o9025.nc", "O9025(OTHER)\n#501=#20\nM99\n"),
+        ("s.toml", "dialect = \"fanuc\"\nmachine = \"mill\"\n"),
+        ("t.toml", "dialect = \"haas\"\nmachine = \"mill\"\n"),
+    ]);
+    shop.run("survey lib --from fanuc --to haas --machine s.toml --machine t.toml --write s.toml");
+    let asked = shop.read("s.toml");
+    for line in [
+        "#? G100 = { calls = 9010, arguments = true } # o1.nc:4; as in: G100 X1.; it calls O9010 if parameter 6050 is 100; else \
+         target = '' in place of calls",
+        "#? M86 = { calls = 9021, arguments = true } # o1.nc:5; as in: M86 T2; it calls O9021 if parameter 6081 is 86; else \
+         target = '' in place of calls",
+        "#? M51 = { target = \"\" } # o1.nc:6; as in: M51; or calls = 9025, arguments = true in place of target: it calls O9025 \
+         if parameter 6085 is 51",
+        "#? axes = [\"X\", \"Y\", \"Z\", \"B\"] # in the order of the control's axis numbers",
+    ] {
+        assert!(asked.lines().any(|found| found == line), "{line} in {asked}");
+    }
+    let line = "#? axes = [\"X\", \"Y\", \"Z\", \"B\"] # those that the machine has";
+    assert!(shop.read("t.toml").contains(line), "{}", shop.read("t.toml"));
+    // A parameter that is stated asks nothing of its program.
+    let stated = "dialect = \"fanuc\"\nmachine = \"mill\"\n[parameters]\n6050 = 0\n6081 = 86\n";
+    shop.write("s.toml", stated.as_bytes());
+    shop.run("survey lib --from fanuc --to haas --machine s.toml --machine t.toml --write s.toml");
+    let asked = shop.read("s.toml");
+    assert!(asked.contains("#? G100 = { target = \"\"") && !asked.contains("M86 ="), "{asked}");
+}

@@ -3,7 +3,7 @@
 use super::locked::{Effective, Locked};
 use super::names::pool_name;
 use super::needs::is_general;
-use crate::dialect::{Control, VariableClass};
+use crate::dialect::{Control, Question, VariableClass};
 use crate::ir::analysis::Numbers;
 use crate::ir::{Class, Var};
 use crate::legalize::Context;
@@ -102,10 +102,25 @@ impl<'a> Pool<'a> {
             && !self.supposed.contains(number)
     }
 
+    /// How far a register is from the number of a variable that keeps its value, where the numbers of both controls are alike: those
+    /// above come first, so that variables beside each other stay in their order, and what must be bought comes last. A number
+    /// that the target has not at all is near to none below: the first is taken. Where the variable is none of those, all are as near.
+    fn distance(&self, var: Var, number: u32) -> (bool, bool, u32) {
+        if var.class != Class::Retained || !self.target.is(Question::Vacancy) {
+            return (false, false, 0);
+        }
+        let row = self.rows.iter().find(|row| (row.first..=row.last).contains(&number));
+        let bought = row.is_some_and(|row| row.option.is_some());
+        let below = number < var.number;
+        let there = self.rows.iter().any(|row| (row.first..=row.last).contains(&var.number));
+        (bought, below, if below && !there { number } else { number.abs_diff(var.number) })
+    }
+
     /// A register for a variable: the one that the lock has under its name, the one where it was on
     /// this control before, or the best that is free. What is needed
     /// `over` calls shares none with programs of earlier runs that stay as they are: a call may run them.
-    pub fn take(&mut self, Var { class, .. }: Var, name: Option<&str>, over: bool) -> Option<u32> {
+    pub fn take(&mut self, var: Var, name: Option<&str>, over: bool) -> Option<u32> {
+        let class = var.class;
         let before = name.and_then(|name| self.was_at(name));
         if let Some(&number) = name.and_then(|name| self.locked.get(name)) {
             return Some(number);
@@ -128,7 +143,10 @@ impl<'a> Pool<'a> {
             .filter(|number| self.free(*number))
             .collect();
         let in_use = |number: u32| self.target.is_in_use(&self.name, number);
-        let best = || free.iter().copied().min_by_key(|n| (self.supposed.contains(*n), in_use(*n)));
+        let best = || {
+            let key = |n: &u32| (self.supposed.contains(*n), in_use(*n), self.distance(var, *n));
+            free.iter().copied().min_by_key(key)
+        };
         let back = before.filter(|number| self.fits(class, *number));
         let number = back.or_else(|| self.scratch.iter().copied().find(again)).or_else(best)?;
         self.used.insert(number);

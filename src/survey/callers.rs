@@ -1,0 +1,131 @@
+//! Codes that may call a program of the library: parameters of a control give some programs a code.
+
+use crate::dialect::Control;
+use crate::library::{Input, ProgramReport};
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// Lines at the head of a program in which its comments name the code that calls it.
+const HEAD: usize = 12;
+
+/// A program that a code may call.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct MayCall {
+    /// The program's number.
+    pub program: u32,
+    /// True if the words of the block are its arguments.
+    pub arguments: bool,
+    /// The number of the parameter that says which code calls it: 6050.
+    pub parameter: u32,
+    /// True if comments of the program say that the code calls it.
+    pub likely: bool,
+}
+
+/// The programs of the library that a code may call: those whose comments name it or its parameter, else all of them. A
+/// parameter that the profile states is known and asks nothing.
+pub(super) fn may_call(
+    code: &str,
+    inputs: &[Input],
+    source: &Control,
+    programs: &[ProgramReport],
+) -> Vec<MayCall> {
+    let Some(letter) = code.chars().next() else { return Vec::new() };
+    let Some(number) = code.get(1..).and_then(|number| number.parse::<u32>().ok()) else { return Vec::new() };
+    let mut all = Vec::new();
+    let mut told = Vec::new();
+    let mut seen = BTreeSet::new();
+    for row in &source.dialect().settings {
+        let Some(rule) = row.alias.filter(|rule| rule.letter == letter) else { continue };
+        let Some((stem, first)) = row.name.rsplit_once('.') else { continue };
+        let Ok(first) = first.parse::<u32>() else { continue };
+        for (parameter, program) in (first..=row.through.unwrap_or(first)).zip(rule.program..) {
+            let is_it = |of: &&ProgramReport| of.name.as_deref().and_then(number_of) == Some(program);
+            let Some(found) = programs.iter().find(is_it) else { continue };
+            if source.setting(&format!("{stem}.{parameter}")).is_some() || !seen.insert(program) {
+                continue;
+            }
+            let head = inputs.get(found.file).map(|input| head_of(input, program)).unwrap_or_default();
+            let stated = stated(&head, parameter);
+            if stated.is_some_and(|stated| stated != number) {
+                continue;
+            }
+            let likely = stated.is_some() || names(&head, &format!("{letter}{number}"));
+            let call = MayCall { program, arguments: rule.arguments, parameter, likely };
+            if likely {
+                told.push(call.clone());
+            }
+            all.push(call);
+        }
+    }
+    if told.is_empty() { all } else { told }
+}
+
+/// What a line of a profile says of a code, if it is more likely to call a program than to be the builder's: comments say so, or it
+/// is a G code. An M code of which nothing says so is the builder's, and its line tells of the call. With the words that tell.
+pub(super) fn answer(calls: &[MayCall], code: &str) -> (Option<String>, String) {
+    let Some(first) = calls.first() else { return (None, String::new()) };
+    let numbers = |arguments: bool| {
+        let of = calls.iter().filter(|call| call.arguments == arguments);
+        let numbers = of.map(|call| call.program.to_string()).collect::<Vec<_>>().join(" or ");
+        let with = if arguments { ", arguments = true" } else { "" };
+        (!numbers.is_empty()).then(|| format!("calls = {numbers}{with}"))
+    };
+    let number = code.get(1..).unwrap_or_default();
+    let parameters =
+        calls.iter().map(|call| format!("O{} if parameter {} is {number}", call.program, call.parameter));
+    let parameters = parameters.collect::<Vec<_>>().join(", or ");
+    let answer = numbers(first.arguments).filter(|_| is_call(calls, code));
+    let others =
+        [true, false].into_iter().filter(|arguments| answer.is_none() || *arguments != first.arguments);
+    let others: String = others.filter_map(numbers).map(|other| format!("; or {other}")).collect();
+    let told = match answer {
+        Some(_) => {
+            format!("{others}; it calls {parameters}; else target = '' in place of calls")
+        }
+        None => format!("{others} in place of target: it calls {parameters}"),
+    };
+    (answer, told)
+}
+
+/// True for a code that is taken to call a program.
+pub(super) fn is_call(calls: &[MayCall], code: &str) -> bool {
+    calls.first().is_some_and(|first| first.likely || code.starts_with('G'))
+}
+
+/// The number in the name of a program.
+fn number_of(name: &str) -> Option<u32> {
+    let digits = name.trim_start_matches(|sign: char| !sign.is_ascii_digit());
+    let end = digits.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(digits.len());
+    digits.get(..end)?.parse().ok()
+}
+
+/// The first lines of a program, in capitals.
+fn head_of(input: &Input, program: u32) -> String {
+    let text = String::from_utf8_lossy(&input.bytes).to_ascii_uppercase();
+    let is_head = |line: &&str| line.starts_with(['O', ':', '<']) && number_of(line) == Some(program);
+    let lines = text.lines().skip_while(|line| !is_head(line));
+    lines.take(HEAD).flat_map(|line| [line, "\n"]).collect()
+}
+
+/// True if a text has a word that no further digit follows.
+fn names(text: &str, word: &str) -> bool {
+    text.match_indices(word).any(|(at, _)| {
+        let after = text.get(at + word.len()..).and_then(|rest| rest.chars().next());
+        let before = text.get(..at).and_then(|rest| rest.chars().next_back());
+        !after.is_some_and(|sign| sign.is_ascii_digit() || sign == '.')
+            && !before.is_some_and(|sign| sign.is_ascii_alphanumeric())
+    })
+}
+
+/// The code that a comment says of a parameter: 100 for `PARAM 6050=100`.
+fn stated(text: &str, parameter: u32) -> Option<u32> {
+    let close = text.replace([' ', '\t'], "");
+    let key = format!("{parameter}=");
+    close.match_indices(&key).find_map(|(at, _)| {
+        let before = close.get(..at).and_then(|rest| rest.chars().next_back());
+        let rest =
+            close.get(at + key.len()..).filter(|_| !before.is_some_and(|sign| sign.is_ascii_digit()))?;
+        let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
+        rest.get(..end)?.parse().ok()
+    })
+}
