@@ -338,14 +338,22 @@ fn alike(letter: char, source: &Control, target: &Control) -> Vec<f64> {
     let heads = source.dialect().codes.iter().filter_map(|row| row.head());
     let mut all: Vec<f64> = heads.filter(|head| head.letter == letter).map(|head| head.number()).collect();
     all.retain(|number| is_same(letter, *number, source, target));
-    // Under G91 words of a move in machine coordinates are places, increments or nothing.
-    let settled = |control: &Control| {
-        let row = control.behaviour(Question::MachineUnderIncremental);
-        row.filter(|row| row.origin.is_confirmed()).map(|row| row.value.clone())
+    let apart = |question: Question| {
+        let settled = |control: &Control| {
+            let row = control.behaviour(question);
+            row.filter(|row| row.origin.is_confirmed()).map(|row| row.value.clone())
+        };
+        settled(source).is_none() || settled(source) != settled(target)
     };
-    let apart = settled(source).is_none() || settled(source) != settled(target);
-    let machine = |number: f64| source.code(letter, number, &[]).is_some_and(|row| row.op == Op::MachineOnce);
-    all.retain(|number| !(apart && machine(*number)));
+    // Under G91 words of a move in machine coordinates are places, increments or nothing. A return to the reference position
+    // that no axis stands beside moves all of them, or none.
+    let machine = apart(Question::MachineUnderIncremental);
+    let returns = apart(Question::ReferenceAllAxes);
+    all.retain(|number| match source.code(letter, *number, &[]).map(|row| row.op) {
+        Some(Op::MachineOnce) => !machine,
+        Some(op) if op.is_return() => !returns,
+        _ => true,
+    });
     all.sort_by(f64::total_cmp);
     all.dedup();
     all
