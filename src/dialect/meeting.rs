@@ -145,6 +145,15 @@ fn met_one(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Me
     let switched = matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
     if standard.op.is_flow() || !switched || standard.op == Op::ProbeOther {
         let meaning = standard.op.meaning().trim().trim_end_matches('.');
+        let program = beside.iter().find(|word| word.letter == 'P').and_then(number);
+        if let Some(program) = program.filter(|_| matches!(standard.op, Op::CallMacro | Op::CallProgram)) {
+            let arguments = if standard.op == Op::CallMacro { ", arguments = true" } else { "" };
+            return Err(format!(
+                "{} cannot be {code} of the target, which calls a program: write calls = {program}{arguments} in place of target, and \
+                 O{program} under 'programs' of the target's profile if it stands there",
+                site.code
+            ));
+        }
         return Err(format!("{} cannot be {code} of the target, which is: {meaning}", site.code));
     }
     let role = |letter: char| {

@@ -324,8 +324,12 @@ impl Overlay {
                     dialect.variables.iter().map(|class| class.name.as_str()).collect();
                 let names = names.into_iter().collect::<Vec<_>>().join(", ");
                 let message = format!("{} has no variables {text}", dialect.title);
-                let help =
-                    format!("name variables of this control, which begin with {names}, or leave it out");
+                let help = match dialect.variables.iter().any(|class| class.name == run.name) {
+                    true => "leave it out: what the control does not have is given to no program".to_owned(),
+                    false => {
+                        format!("name variables of this control, which begin with {names}, or leave it out")
+                    }
+                };
                 self.fault(&format!("reserved:{text}"), message, help);
             }
             runs.push(run);

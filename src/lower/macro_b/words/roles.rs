@@ -208,6 +208,17 @@ impl<'a> Lowering<'a> {
         self.findings.add(Diagnostic::new(Code::Conditional, span, what).with_help(help).asked_once());
     }
 
+    /// The pecks of a tap, which goes to its depth in one go if the shop says so: the word says nothing then.
+    fn peck_of_tap(&mut self, span: Span, what: String) {
+        if self.control.behaviour(Question::TapPeck).is_some_and(|row| row.value == "one.go") {
+            let told = "the tap goes to its depth in one go: the depth of its pecks is left out, as the profile says";
+            return self.findings.add(Diagnostic::new(Code::Conditional, span, told).asked_once());
+        }
+        let help = "if the tap may go down in one go, write \"tap.peck\" = \"one.go\" under [behaviours] in the source's profile";
+        let told = Diagnostic::new(Code::NotUnderstood, span, what).with_help(help);
+        self.findings.add(told.lacking("behaviour.tap.peck=one.go".to_owned()));
+    }
+
     fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>, in_force: Option<&CodeMeaning>) {
         if !word.comma && codes.iter().any(|(_, row)| row.op == Op::SpindleOrient) {
             return self.angle_of_stop(word, span);
@@ -225,7 +236,11 @@ impl<'a> Lowering<'a> {
             return self.no_step(span);
         }
         if let Some(what) = not_converted(word, codes, in_force) {
-            return self.findings.not_understood(span, what);
+            let mut rows = codes.iter().map(|(_, row)| *row).chain(in_force);
+            if word.letter != 'Q' || !rows.any(|row| is_tap(row.op)) {
+                return self.findings.not_understood(span, what);
+            }
+            return self.peck_of_tap(span, what);
         }
         if let Some((_, row)) = codes.iter().find(|(_, row)| matches!(row.op, Op::Act | Op::Builder)) {
             let message = format!("{} has no meaning beside {}", word.letter, row.code);
@@ -315,6 +330,11 @@ impl<'a> Lowering<'a> {
     }
 }
 
+/// True for a tap whose code may have the depth of its pecks beside it.
+const fn is_tap(op: Op) -> bool {
+    matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid)
+}
+
 /// What a word is that the machine knows and no conversion has, in words.
 fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMeaning>) -> Option<String> {
     let has = |op: fn(Op) -> bool| {
@@ -337,19 +357,18 @@ fn not_converted(word: &Word, codes: &BlockCodes<'_>, in_force: Option<&CodeMean
             row.code.split(' ').next().unwrap_or_default()
         ));
     }
-    let taps = |op: Op| matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid);
     match letter {
-        'Q' => has(taps).map(|code| {
+        'Q' => has(is_tap).map(|code| {
             format!(
                 "Q beside {code} is the depth of each peck of a rigid tap, which is not converted: how far a control backs off \
                  between pecks is a setting of its own. Tap to the depth in one go, or \
                  write the pecks as taps of their own"
             )
         }),
-        'E' => has(taps).map(|code| {
+        'E' => has(is_tap).map(|code| {
             format!("E beside {code} counts the threads an inch, which is not converted: write the lead (F)")
         }),
-        'J' => has(taps).map(|code| format!("no source says what J beside {code} is on this control")),
+        'J' => has(is_tap).map(|code| format!("no source says what J beside {code} is on this control")),
         _ => None,
     }
 }
