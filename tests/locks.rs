@@ -124,23 +124,23 @@ fn codes(made: &Conversion) -> Vec<&'static str> {
 }
 
 const MACRO: (&str, &str) = ("macro.nc", "O9000\nG21\n#700=1.5\nG0 X#700\nM99\n");
-const CALLER: (&str, &str) = ("main.nc", "O1000\nG21\n#100=50.\nM98 P9000\nG0 X#100\nM30\n");
+const CALLER: (&str, &str) = ("main.nc", "O1000\nG21\n#800=50.\nM98 P9000\nG0 X#800\nM30\n");
 
 #[test]
 fn a_register_of_an_earlier_run_is_not_the_callers_own() {
     let first = to_haas(&[MACRO], Lock::new("fanuc", "haas"));
-    assert_eq!(first.lock.variables["#700"], 100);
-    // The macro is on the machine with #700 in #100: its caller must not have #100 itself.
+    assert_eq!(first.lock.variables["#700"], 800);
+    // The macro is on the machine with #700 in #800: its caller must not have #800 itself.
     let alone = to_haas(&[CALLER], first.lock.clone());
-    assert_eq!((refused(&alone), alone.lock.variables["#700"]), (vec![true], 100));
+    assert_eq!((refused(&alone), alone.lock.variables["#700"]), (vec![true], 800));
     assert!(codes(&alone).contains(&"MG0610"));
     // Both together: the macro is written anew, with another register.
     let both = to_haas(&[MACRO, CALLER], first.lock);
     assert_eq!(refused(&both), [false, false]);
     let told: Vec<&str> = both.programs[1].diagnostics.iter().map(|d| &*d.message).collect();
-    assert!(told.contains(&"#700 moves from #100 to #101: this program uses #100 itself"), "{told:?}");
-    assert_eq!(both.lock.variables["#700"], 101);
-    assert_eq!(both.texts[1].as_deref(), Some("O1000\nG21\n#100=50\nM98 P9000\nG0 X#100\nM30\n"));
+    assert!(told.contains(&"#700 moves from #800 to #801: this program uses #800 itself"), "{told:?}");
+    assert_eq!(both.lock.variables["#700"], 801);
+    assert_eq!(both.texts[1].as_deref(), Some("O1000\nG21\n#800=50\nM98 P9000\nG0 X#800\nM30\n"));
 }
 
 /// A program that wants many registers of another library is told of them in one finding, and the files are not all listed.
@@ -152,13 +152,13 @@ fn all_that_stands_in_the_way_of_a_program_is_one_finding() {
     let files: Vec<(&str, &str)> =
         names.iter().map(String::as_str).zip(texts.iter().map(String::as_str)).collect();
     let first = to_haas(&files, Lock::new("fanuc", "haas"));
-    assert_eq!(first.lock.variables.values().copied().collect::<Vec<_>>(), (100..120).collect::<Vec<_>>());
-    let own = format!("O1000\nG21\n{}M30\n", lines(100..110));
+    assert_eq!(first.lock.variables.values().copied().collect::<Vec<_>>(), (800..820).collect::<Vec<_>>());
+    let own = format!("O1000\nG21\n{}M30\n", lines(800..810));
     let made = to_haas(&[("main.nc", &own)], first.lock);
     assert_eq!(codes(&made), ["MG0610"]);
     let told = &made.programs[0].diagnostics.iter().find(|d| d.code.number() == "MG0610").unwrap().message;
     let parts =
-        ["#107 for #707 and 2 more, and m01.nc", "m08.nc and 4 more rely on them", "#107 and 2 more itself"];
+        ["#807 for #707 and 2 more, and m01.nc", "m08.nc and 4 more rely on them", "#807 and 2 more itself"];
     assert!(parts.iter().all(|part| told.contains(part)), "{told}");
 }
 
@@ -166,11 +166,12 @@ fn all_that_stands_in_the_way_of_a_program_is_one_finding() {
 fn a_register_of_values_in_between_is_not_the_callers_own_either() {
     // The remainder takes a temporary.
     let between = ("macro.nc", "O9000\nG21\n#1=#2 MOD 3\nG0 X#1\nM99\n");
+    let caller = ("main.nc", "O1000\nG21\n#100=50.\nM98 P9000\nG0 X#100\nM30\n");
     let first = to_haas(&[between], Lock::new("fanuc", "haas"));
     assert_eq!(first.lock.scratch, [100]);
-    let alone = to_haas(&[CALLER], first.lock.clone());
+    let alone = to_haas(&[caller], first.lock.clone());
     assert_eq!((refused(&alone), &alone.lock.scratch), (vec![true], &vec![100]));
-    let both = to_haas(&[between, CALLER], first.lock);
+    let both = to_haas(&[between, caller], first.lock);
     assert_eq!((refused(&both), &both.lock.scratch), (vec![false, false], &vec![101]));
 }
 
@@ -205,14 +206,14 @@ fn what_outlives_a_call_stays_apart_from_callees_that_are_converted_later() {
 #[test]
 fn what_earlier_programs_use_themselves_is_not_taken() {
     let first = to_haas(&[CALLER], Lock::new("fanuc", "haas"));
-    assert_eq!(first.lock.own, [100]);
+    assert_eq!(first.lock.own, [800]);
     let second = to_haas(&[MACRO], first.lock);
-    assert_eq!(second.lock.variables["#700"], 101);
+    assert_eq!(second.lock.variables["#700"], 801);
     assert_eq!(second.lock.files, ["macro.nc", "main.nc"]);
-    // #101 to #103 by a computed number, which has its bounds from AND.
-    let computed = ("main.nc", "O1000\nG21\n#[100+[#1 AND 3]]=50.\nM30\n");
+    // #800 to #803 by a computed number, which has its bounds from AND.
+    let computed = ("main.nc", "O1000\nG21\n#[800+[#1 AND 3]]=50.\nM30\n");
     let first = to_haas(&[computed], Lock::new("fanuc", "haas"));
-    assert_eq!(to_haas(&[MACRO], first.lock).lock.variables["#700"], 104);
+    assert_eq!(to_haas(&[MACRO], first.lock).lock.variables["#700"], 804);
 }
 
 #[test]

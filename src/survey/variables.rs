@@ -95,14 +95,16 @@ pub(super) fn further_axes(source: &Control, module: &Module) -> Vec<Role> {
     let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let mut roles = [(Role::Y, false), (Role::A, false), (Role::B, false), (Role::C, false)];
     let mut on_face = false;
+    // Letters that are axes on one such lathe are corners and angles on another.
+    let corners = source.corner_setting().is_some();
     for nc in stmts.filter_map(|stmt| stmt.kind.nc()) {
         // In the plane of a face Y is a length that C makes.
         on_face = nc.has(Op::PolarPlane) || on_face && !nc.has(Op::PolarPlaneOff);
         for (role, moved) in &mut roles {
             let lathe = source.machine() == Machine::Lathe;
-            // Beside X or Z of a lathe A may be the angle of a line, and C a chamfer: what moves an axis stands alone somewhere.
+            // Beside X or Z of such a lathe A may be the angle of a line, and C a chamfer: what moves an axis stands alone somewhere.
             let drawn = [Role::X, Role::Z, Role::StepX, Role::StepZ];
-            let drawn = lathe && drawn.iter().any(|role| nc.word(*role).is_some());
+            let drawn = lathe && corners && drawn.iter().any(|role| nc.word(*role).is_some());
             let counts = match role {
                 Role::Y => lathe && !on_face,
                 Role::A | Role::C => !drawn,

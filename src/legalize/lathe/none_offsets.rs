@@ -2,7 +2,7 @@
 //!
 //! Law: none. A place in work coordinates under offset 00 counts with the geometry of the tool before, where 00 takes the wear alone away,
 //! and without it where 00 takes the whole offset away. Where the two controls are known to differ the move is refused; where nobody
-//! says it of one, it is for review and asked once. A return to the reference position, a place in machine coordinates and an increment
+//! says it of one, it is asked once, and told with the first such place. A return to the reference position, a place in machine coordinates and an increment
 //! are alike, and so is all that comes after the next T word with an offset.
 //! Counter-example: `G0 X4. Z3. T0100`, a safe place on one machine and past the end of travel on the other.
 
@@ -28,7 +28,8 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     turns && features.role(Role::Turret) && !alike && !context.source.is_same_machine(context.target)
 }
 
-const HELP: &str = "write the way to the tool change as G28 U0 W0, or as a place in machine coordinates with G53; or end with the                     offset of the tool still in force";
+const HELP: &str = "write the way to the tool change as G28 U0 W0, or as a place in machine coordinates with G53; or end with the \
+                    offset of the tool still in force";
 
 /// Looks at each move.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -63,7 +64,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         }
         context.rests_on_source(index, span, QUESTION);
         context.rests_on_target(index, span, QUESTION);
-        context.add(index, told);
+        context.add_once(index, OPEN, told.asked_once());
     });
 }
 

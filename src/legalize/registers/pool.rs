@@ -23,6 +23,8 @@ pub(super) struct Pool<'a> {
     scratch: BTreeSet<u32>,
     /// Those of programs of earlier runs whose values outlive calls.
     over_calls: BTreeSet<u32>,
+    /// Those that other libraries have on the same machine: taken where nothing else is free.
+    elsewhere: &'a BTreeSet<u32>,
     /// True if no program of an earlier run stays as it is.
     alone: bool,
     /// What heads of an earlier conversion say of the source's registers.
@@ -38,7 +40,7 @@ impl<'a> Pool<'a> {
     pub fn new(
         context: &Context<'a>,
         effective: &'a Effective,
-        locked: &Locked<'_>,
+        locked: &Locked<'a>,
         held: &'a BTreeMap<String, String>,
     ) -> Self {
         let target = context.target;
@@ -50,17 +52,13 @@ impl<'a> Pool<'a> {
         // What every control of the kind has comes before what must be bought.
         rows.sort_by_key(|row| (row.option.is_some(), row.first));
         let name = pool_name(target);
-        let used = effective
-            .variables
-            .values()
-            .chain(locked.own)
-            .chain(&locked.elsewhere.registers)
-            .copied()
-            .collect();
+        let used = effective.variables.values().chain(locked.own).copied().collect();
         let scratch = effective.scratch.clone();
+        let elsewhere = &locked.elsewhere.registers;
         let (over_calls, alone) = (locked.over_calls.iter().copied().collect(), locked.others.is_empty());
         Self {
             over_calls,
+            elsewhere,
             alone,
             name,
             rows,
@@ -144,7 +142,8 @@ impl<'a> Pool<'a> {
             .collect();
         let in_use = |number: u32| self.target.is_in_use(&self.name, number);
         let best = || {
-            let key = |n: &u32| (self.supposed.contains(*n), in_use(*n), self.distance(var, *n));
+            let shunned = |n: u32| (self.supposed.contains(n), in_use(n), self.elsewhere.contains(&n));
+            let key = |n: &u32| (shunned(*n), self.distance(var, *n));
             free.iter().copied().min_by_key(key)
         };
         let back = before.filter(|number| self.fits(class, *number));

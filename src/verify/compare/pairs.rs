@@ -367,12 +367,11 @@ impl<'p, 'r> Pairs<'p, 'r> {
             return None;
         }
         // A size of the tool was rounded where it was written, which another block did.
-        let allowed = match **a {
-            EventKind::ToolLength { .. } | EventKind::CutterRadius { .. } | EventKind::ToolOffset { .. } => {
-                allowed.max(self.tolerance.rounded)
-            }
-            _ => allowed,
-        };
+        let is_size = matches!(
+            **a,
+            EventKind::ToolLength { .. } | EventKind::CutterRadius { .. } | EventKind::ToolOffset { .. }
+        );
+        let allowed = if is_size { allowed.max(self.tolerance.rounded) } else { allowed };
         let mut largest = self.found.largest;
         let paths = match source.rounded.max(target.rounded) {
             // What the words of an arc rounded moves its middle farther than its ends.
@@ -390,13 +389,12 @@ impl<'p, 'r> Pairs<'p, 'r> {
                 self.found.texts.extend(texts(&source.what, &target.what));
                 outside_differs((self.source, a), (self.target, b), self.tolerance)
             }
-            Some(what) => match has_no_feed(a).filter(|_| what == ANOTHER_FEED) {
-                Some(text) => {
-                    self.found.substituted.insert(text);
-                    None
-                }
-                None => Some(what.to_owned()),
-            },
+            Some(what) => {
+                let excuse = has_no_feed(a).filter(|_| what == ANOTHER_FEED);
+                let what = excuse.is_none().then(|| what.to_owned());
+                self.found.substituted.extend(excuse);
+                what
+            }
         }
     }
 }
