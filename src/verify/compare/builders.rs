@@ -1,13 +1,26 @@
 //! Codes of a machine's builder and switches of the operator that the target has not, and what the source's profile puts in their place.
 
-use crate::canon::{Act, Sys};
+use crate::canon::{Act, Op, Sys};
 use crate::control::trace::EventKind;
 use crate::dialect::Without;
 use crate::verify::sides::Side;
+use std::collections::BTreeSet;
 
 /// The text of a code that is left out.
 pub fn is_left_out(source: &Side<'_>, target: &Side<'_>, what: &EventKind) -> Option<String> {
     without_code(source, target, what).filter(|(without, _)| *without == Without::Omit).map(|(_, text)| text)
+}
+
+/// True for what the target does without: a code that its profile leaves out, which is noted, and a switch of the operator.
+pub fn passes(
+    (source, target): (&Side<'_>, &Side<'_>),
+    what: &EventKind,
+    replaced: &mut BTreeSet<(Op, String)>,
+) -> bool {
+    let left = is_left_out(source, target, what);
+    let passes = left.is_some() || is_switch(target, what);
+    replaced.extend(left.map(|text| (Op::Act, text)));
+    passes
 }
 
 /// True for a write to one of the operator's own switches, of which the target has no variable: no run of the part shows it. No exact

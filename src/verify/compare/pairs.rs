@@ -176,8 +176,8 @@ impl<'p, 'r> Pairs<'p, 'r> {
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
             // Settings wait until after it, so what looks at those that come next looks past it.
-            if let Some(text) = a.and_then(|a| builders::is_left_out(self.source, self.target, &a.what)) {
-                self.found.replaced.insert((Op::Act, text));
+            let sides = (self.source, self.target);
+            if a.is_some_and(|a| builders::passes(sides, &a.what, &mut self.found.replaced)) {
                 i += 1;
                 continue;
             }

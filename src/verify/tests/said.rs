@@ -176,3 +176,13 @@ fn a_cycle_that_no_program_of_the_library_leaves_is_no_question() {
     assert!(!asks(["N5 G80\n", "G80\n"]));
     assert!(asks(["", "X5.\n"]));
 }
+
+#[test]
+fn a_switch_of_the_operator_that_the_target_has_not_is_no_difference() {
+    let source = "O1\nG21G90G17G40G49G80G94G54\n#3003=1\nG0X1.\n#3003=0\nX3.\nM30\n";
+    let target = "N1 O1\nN2 G21 G90 G17 G40 G49 G80 G94 E1\nN3 G0 X1.\nN4 X3.\nN5 M2\n";
+    let found = |target: &str| super::programs(("fanuc", source), ("fadal", target), &[]).remove(0);
+    let same = found(target);
+    assert!(same.witness.is_none(), "{same:#?}");
+    assert!(found(&target.replace("X3.", "X4.")).witness.is_some());
+}
