@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// The sections whose questions stay.
 const SECTIONS: [&str; 4] = ["confirm", "behaviours", "settings", "parameters"];
 
-/// Puts questions of other libraries behind those of this one, unless it asks the same. `is_here` is true for a file of this library.
+/// Puts questions of other libraries after those of this one, unless it asks the same. `is_here` is true for a file of this library.
 pub(super) fn others(old: &str, is_here: &dyn Fn(&str) -> bool, asked: &mut BTreeMap<&'static str, String>) {
     let mut section = None;
     for line in old.lines() {

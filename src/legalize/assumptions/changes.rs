@@ -58,9 +58,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 /// How a statement rests on where a tool change left Z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rest {
-    /// It goes on from there, to a place that it names or across.
+    /// It goes on at rapid from there, to a place that it names or across.
     Across,
-    /// Z moves by increments, or is read.
+    /// It cuts or drills at that height, moves Z by increments, or reads it.
     Height,
 }
 
@@ -139,7 +139,9 @@ fn step(stmt: &Stmt, state: &mut Modal, height: &mut Height) -> Option<Rest> {
         height.join(&before);
     }
     let steps = nc.word(Role::Z).is_some() && state.op(Group::Distance) != Some(Op::Absolute);
-    let rest = if reads || steps { Rest::Height } else { Rest::Across };
+    let drills = state.op(Group::Cycle).is_some_and(Op::is_cycle);
+    let rapid = state.op(Group::Motion) == Some(Op::Rapid) && !drills;
+    let rest = if reads || steps || !rapid { Rest::Height } else { Rest::Across };
     (before.changed && (reads || rests)).then_some(rest)
 }
 

@@ -32,7 +32,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 let speed = nc.word(Role::Speed).and_then(Expr::constant).filter(|_| turns);
                 if let Some(speed) = speed.filter(|speed| *speed > f64::from(most)) {
                     let what = format!(
-                        "a speed of {speed} is more than the target turns, which is {most} by its profile: it stops with an alarm, or turns \
+                        "a speed of {speed} is too fast for the target, which turns {most} by its profile: it stops with an alarm, or turns \
                          more slowly while the feed stays"
                     );
                     let help = "write a speed that it turns, and the feed for it";

@@ -272,8 +272,8 @@ fn subroutines_that_return_to(program: &Program) -> Vec<Span> {
     calls.map(|block| block.term.site.span).collect()
 }
 
-/// True for a number of four digits that is none of a macro: of a program that an operator runs.
+/// True for a number that is none of a macro, by the source's table: of a program that an operator runs.
 fn is_numbered_as_main(name: Option<&ProgramName>, source: &Control) -> bool {
-    let last = source.limit("program.main").unwrap_or(7999);
+    let last = source.limit("program.main").unwrap_or_default();
     matches!(name, Some(ProgramName::Number(number)) if (1..=last).contains(number))
 }

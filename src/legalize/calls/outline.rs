@@ -176,6 +176,12 @@ fn sub_name(program: &Program, entry: BlockId) -> ProgramName {
     ProgramName::Name(format!("{parent}/{label}"))
 }
 
+/// Where some of the blocks stand in a program of them: after a jump to the entry, unless that comes first.
+pub(super) fn places(entry: BlockId, body: &BTreeSet<BlockId>) -> BTreeMap<BlockId, BlockId> {
+    let shift = u32::from(body.first() != Some(&entry));
+    body.iter().copied().zip((shift..).map(BlockId)).collect()
+}
+
 /// A program of some of the blocks, entered at `entry`.
 pub(super) fn extract(
     program: &Program,
@@ -185,9 +191,7 @@ pub(super) fn extract(
     site: SourceInfo,
 ) -> Program {
     let leads = body.first() == Some(&entry);
-    let shift = u32::from(!leads);
-    let place: BTreeMap<BlockId, BlockId> =
-        body.iter().zip(shift..).map(|(&old, new)| (old, BlockId(new))).collect();
+    let place = places(entry, body);
     let mut blocks = Vec::with_capacity(body.len() + 1);
     if !leads {
         let jump = TermKind::Jump(place.get(&entry).copied().unwrap_or(BlockId(0)));

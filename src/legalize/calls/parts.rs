@@ -4,7 +4,7 @@
 //! place. It is made once, whoever calls it. Side conditions: the library has the program, and one block of it has the number. Blocks
 //! that several parts reach are copied, so an operator who edits one must edit all; what only parts reach stands in them alone. Counter-example: a number that stands twice.
 
-use super::outline::{extract, for_each_callee};
+use super::outline::{extract, for_each_callee, places};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{
     Block, BlockId, Call, Callee, Comment, Module, Program, SourceInfo, Stmt, StmtKind, TermKind,
@@ -84,8 +84,7 @@ fn cut(
     site: SourceInfo,
 ) -> Program {
     let mut made = extract(program, entry, body, name, site);
-    let shift = u32::from(body.first() != Some(&entry));
-    let place: BTreeMap<BlockId, BlockId> = body.iter().copied().zip((shift..).map(BlockId)).collect();
+    let place = places(entry, body);
     for block in &mut made.blocks {
         for_each_callee(block, &mut |callee| {
             if let Callee::Block(to) = callee {

@@ -24,19 +24,28 @@ pub(in crate::legalize) fn known(module: &Module) -> BTreeSet<ProgramName> {
     module.programs.iter().filter_map(|program| program.name.clone()).collect()
 }
 
+/// The number by which a call runs such a program; none if it runs another one. `known` are the library's own.
+pub(in crate::legalize) fn outside(
+    call: &Call,
+    known: &BTreeSet<ProgramName>,
+    context: &Context<'_>,
+) -> Option<u32> {
+    match &call.callee {
+        Callee::Program(name @ ProgramName::Number(number)) if !known.contains(name) => {
+            number_of(name, context).map(|_| *number)
+        }
+        _ => None,
+    }
+}
+
 /// The programs of the library that call such a one themselves, and which.
 pub(in crate::legalize) fn callers(module: &Module, context: &Context<'_>) -> BTreeMap<usize, BTreeSet<u32>> {
     let mut found: BTreeMap<usize, BTreeSet<u32>> = BTreeMap::new();
     if context.target.standing().is_empty() {
         return found;
     }
-    let known: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
-    let outside = |call: &Call| match &call.callee {
-        Callee::Program(name @ ProgramName::Number(number)) if !known.contains(name) => {
-            number_of(name, context).map(|_| *number)
-        }
-        _ => None,
-    };
+    let known = known(module);
+    let outside = |call: &Call| outside(call, &known, context);
     for (index, program) in module.programs.iter().enumerate() {
         for number in program.blocks.iter().flat_map(calls_of).filter_map(outside) {
             found.entry(index).or_default().insert(number);

@@ -127,7 +127,7 @@ fn stands_for(
                 number: Box::new(Expr::Number(1.0)),
                 text: text().to_uppercase().into(),
             };
-            let check = "make sure that the operator can do it then: what turns there turns on, unless the program stops it before";
+            let check = "make sure that the operator can do it then: the spindle goes on turning, unless the program stops it before";
             (told("is a stop", check), Some(kind))
         }
         Some(Without::Alarm) => {

@@ -48,6 +48,7 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
         target,
         operators: most_operators(target),
         vacancy: target.is(Question::Vacancy),
+        inverse: context.features.op(Op::FeedInverse),
         highest: highest_temp(program),
         before: Vec::new(),
         changed: false,
@@ -61,6 +62,8 @@ struct Taker<'c> {
     operators: u32,
     /// True where the target's variables may be vacant, and its temporaries not.
     vacancy: bool,
+    /// True where a feed may be one of inverse time, which counts for its own block alone.
+    inverse: bool,
     highest: u32,
     before: Vec<(Var, Expr)>,
     changed: bool,
@@ -106,7 +109,7 @@ impl Taker<'_> {
         let computed = |item: &&NcItem| matches!(item, NcItem::Word(_, value) if !is_literal(value));
         let many = nc.ops().any(Op::is_cycle) && nc.items.iter().filter(computed).count() > registers;
         let feed = |item: &NcItem| matches!(item, NcItem::Word(Role::Feed, value) if !is_literal(value));
-        let at = nc.items.iter().position(feed).filter(|_| many)?;
+        let at = nc.items.iter().position(feed).filter(|_| many && !self.inverse)?;
         self.changed = true;
         let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
         Some(Stmt { kind: StmtKind::Nc(Nc { items: vec![nc.items.remove(at)] }), site })

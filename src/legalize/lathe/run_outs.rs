@@ -100,7 +100,7 @@ fn has_pass(program: &Program) -> bool {
     stmts.any(|stmt| stmt.kind.has_op(Op::ThreadingPass))
 }
 
-/// Whether a block puts a single pass in force; none where it names no motion, or may be skipped.
+/// Whether a block puts a single pass in force; none if it names no motion, or may be skipped.
 fn motion(stmt: &Stmt) -> Option<bool> {
     let nc = stmt.kind.nc()?;
     let op = nc.ops().filter(|op| op.group() == Group::Motion || op.is_lathe_cycle()).last()?;

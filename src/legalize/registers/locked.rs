@@ -40,7 +40,8 @@ pub struct Locked<'l> {
     pub elsewhere: &'l Elsewhere,
 }
 
-/// What other libraries that go to the same machine have there: nothing that this one invents may have it too.
+/// What other libraries that go to the same machine have there. Their program numbers are given to no other program; their registers
+/// are taken only where no other is free.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Elsewhere {
     /// Numbers of their programs.

@@ -10,7 +10,7 @@ use super::outside::{Moved, in_words, is_shared, named, read, written_by};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
 use crate::ir::analysis::{VarSet, calls_of};
-use crate::ir::{Argument, Callee, Class, Expr, Module, Place, Program, StmtKind, Var};
+use crate::ir::{Argument, Class, Expr, Module, Place, Program, StmtKind, Var};
 use crate::legalize::Context;
 use crate::legalize::calls::standing;
 use crate::syntax::ProgramName;
@@ -156,7 +156,7 @@ fn offsets(
 ) {
     for block in &program.blocks {
         for call in calls_of(block) {
-            let outside = matches!(&call.callee, Callee::Program(name) if !known.contains(name) && standing::number_of(name, context).is_some());
+            let outside = standing::outside(call, known, context).is_some();
             let named = |argument: &&Argument| {
                 argument.local == OFFSET && argument.value.constant().is_none_or(|number| number > ALIKE)
             };

@@ -85,7 +85,7 @@ N91#3000=35(CUTTER TOO BIG)
 #[test]
 fn a_call_that_every_run_stops_in_leaves_open_what_stands_after_it() {
     let main = |target: &str| programs(("fanuc", TOO_BIG), ("haas", target), &[]).remove(0);
-    // With another place after the call it looks the same, as no run comes to it.
+    // No run comes to the move after the call, so it makes no difference where that goes.
     for target in [TOO_BIG.to_owned(), TOO_BIG.replace("G0X1.", "G0X2.")] {
         let found = main(&target);
         assert_eq!(found.outcome, Outcome::Undecided, "{found:#?}");

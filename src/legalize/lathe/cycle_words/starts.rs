@@ -3,6 +3,7 @@
 //! A word says a place for as long as the variables that it was computed from keep their values.
 
 use super::super::place::{Place, Told};
+use super::super::tap_products::is_kept;
 use super::super::thread_loops::counts;
 use crate::canon::Role;
 use crate::ir::analysis::{Summaries, Vacancy};
@@ -67,17 +68,6 @@ impl Starts {
             }
         };
         [value(x, 0), value(z, 1)]
-    }
-}
-
-/// True of a value that stays the same until one of its variables changes.
-fn is_kept(value: &Expr) -> bool {
-    match value {
-        Expr::Number(_) | Expr::Var(_) => true,
-        Expr::Negate(inner) => is_kept(inner),
-        Expr::Binary(_, parts) => parts.iter().all(is_kept),
-        Expr::Call(_, parts) => parts.iter().all(is_kept),
-        _ => false,
     }
 }
 
