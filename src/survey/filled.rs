@@ -6,6 +6,7 @@
 
 use super::keys::{needed_by, setting_of};
 use super::start::lines as lines_of_start;
+use super::unseen;
 use super::words::with_words;
 use super::{AskedSetting, AskedStart, AskedWord, Survey};
 use crate::dialect::{Control, Profile, Settled, Side};
@@ -54,6 +55,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
         }
     }
     super::kept::others(old.unwrap_or_default(), &|file| survey.has_file(file), &mut asked);
+    if let Some(lines) = asked.remove(unseen::SECTION) {
+        asked.insert(unseen::SECTION, unseen::together(&lines));
+    }
     let lathe = lathe(survey, side);
     if let Some((system, of)) = lathe.as_ref().and_then(|(_, system)| system.as_ref()) {
         let lines = asked.entry("settings").or_default();
@@ -81,7 +85,7 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     let axes = super::variables::axes_line(survey, control);
     let unit =
         unit.first().map_or(String::new(), |unit| format!(" ({})", counted(unit.programs, &unit.places)));
-    text = with_machine(&text, control.profile(), (lathe.map(|(line, _)| line), point), (&unit, &axes));
+    text = with_machine(&text, control.profile(), side, (lathe.map(|(line, _)| line), point), (&unit, &axes));
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     text = match side {
@@ -130,7 +134,7 @@ fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str,
     let mut all: BTreeMap<&'static str, String> = BTreeMap::new();
     for fact in facts(questions, control) {
         let (section, line) = match &fact.settled_by {
-            Settled::Confirmed(name) => ("confirm", format!("\"{name}\",")),
+            Settled::Confirmed(name) => (unseen::SECTION, format!("\"{name}\",")),
             Settled::Setting { section, name, values } => (*section, Settled::choice(name, values)),
             // They stand at the head of every profile that does not say them.
             Settled::Key { .. } => continue,
@@ -267,6 +271,7 @@ fn lathe(survey: &Survey<'_>, side: Side) -> Option<(String, Option<(String, Str
 fn with_machine(
     text: &str,
     said: &Profile,
+    side: Side,
     (lathe, point): (Option<String>, Option<String>),
     (unit, axes): (&str, &str),
 ) -> String {
@@ -274,13 +279,18 @@ fn with_machine(
     let Ok(profile) = Profile::read(text) else { return text.to_owned() };
     let units =
         format!("units = \"inch\" or \"metric\" # what its programs are in where no code says so{unit}");
+    // Programs are given variables on the machine that they go to.
+    let gives = side == Side::Target;
     let all = [
         (said.title.is_none(), "title = \"\" # what people call the machine"),
         (said.machine.is_none() || lathe.is_some(), kind),
         (said.units.is_none(), units.as_str()),
         (point.is_some(), point.as_deref().unwrap_or_default()),
         (said.axes.is_none(), axes),
-        (profile.place("reserved").is_none(), "reserved = [] # variables that programs must not be given"),
+        (
+            gives && profile.place("reserved").is_none(),
+            "reserved = [] # variables that programs must not be given",
+        ),
     ];
     let missing = all.iter().filter(|(missing, _)| *missing);
     let lines: String = missing.map(|(_, line)| format!("{ASKS} {line}\n")).collect();
@@ -376,8 +386,8 @@ mod tests {
 
     #[test]
     fn what_the_profile_says_is_no_key_again() {
-        let text = filled_for(PROGRAM, Some("dialect = \"fanuc\"\nreserved = []\n"));
-        assert!(!text.contains("#? reserved"), "{text}");
+        let text = filled_for(PROGRAM, Some("dialect = \"fanuc\"\naxes = [\"X\", \"Y\", \"Z\"]\n"));
+        assert!(!text.contains("#? axes") && text.contains("#? units"), "{text}");
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! Questions that an earlier survey of another library left in a profile: two old machines may go to one new one.
 
-use super::filled::{ASKS, TELLS};
+use super::filled::ASKS;
+use super::unseen;
 use std::collections::BTreeMap;
 
 /// The sections whose questions stay.
-const SECTIONS: [&str; 4] = ["confirm", "behaviours", "settings", "parameters"];
+const SECTIONS: [&str; 4] = [unseen::SECTION, "behaviours", "settings", "parameters"];
 
 /// Puts questions of other libraries after those of this one, unless it asks the same. `is_here` is true for a file of this library.
 pub(super) fn others(old: &str, is_here: &dyn Fn(&str) -> bool, asked: &mut BTreeMap<&'static str, String>) {
@@ -18,7 +19,12 @@ pub(super) fn others(old: &str, is_here: &dyn Fn(&str) -> bool, asked: &mut BTre
         } else if section == Some("confirm") && trimmed.starts_with(']') {
             section = None;
         }
-        let Some(section) = section.filter(|_| trimmed.starts_with(ASKS)) else { continue };
+        let Some(section) = section else { continue };
+        let told = unseen::single(trimmed).filter(|_| section == unseen::SECTION);
+        let trimmed = told.as_deref().unwrap_or(trimmed);
+        if !trimmed.starts_with(ASKS) {
+            continue;
+        }
         let files = files(trimmed);
         if files.is_empty() || files.iter().all(|file| is_here(file)) {
             continue;
@@ -28,17 +34,6 @@ pub(super) fn others(old: &str, is_here: &dyn Fn(&str) -> bool, asked: &mut BTre
             lines.push_str(trimmed);
             lines.push('\n');
         }
-    }
-    tell_unseen(asked);
-}
-
-/// What is told of facts that no page of a machine shows.
-const UNSEEN: &str = "No page of the machine shows these. Leave them if you do not know them; take the sign away from what you tried.";
-
-/// Puts that before them.
-fn tell_unseen(asked: &mut BTreeMap<&'static str, String>) {
-    if let Some(lines) = asked.get_mut("confirm") {
-        lines.insert_str(0, &format!("{TELLS} {UNSEEN}\n"));
     }
 }
 
@@ -66,8 +61,9 @@ mod tests {
     fn questions_of_another_library_stay_and_those_of_this_one_are_asked_anew() {
         let old = r#"dialect = "fanuc"
 confirm = [
-#? "code:M60", # a brake (2 programs: A.NC:1, A.NC:7)
-#? "code:M61", # another (B.NC:2)
+#: "code:M60": a brake (2 programs: A.NC:1, A.NC:7)
+#: "code:M61": another (B.NC:2)
+#? "code:M60", "code:M61",
 ]
 
 [behaviours]
@@ -79,10 +75,7 @@ confirm = [
         let mut asked =
             BTreeMap::from([("behaviours", "#? \"change.ends\" = true # what (B.NC:9)\n".to_owned())]);
         others(old, &|file| file == "B.NC", &mut asked);
-        assert_eq!(
-            asked["confirm"].lines().nth(1).unwrap(),
-            r#"#? "code:M60", # a brake (2 programs: A.NC:1, A.NC:7)"#
-        );
+        assert_eq!(asked["confirm"], "#? \"code:M60\", # a brake (2 programs: A.NC:1, A.NC:7)\n");
         let kept = asked["behaviours"].lines().nth(1);
         assert_eq!(kept, Some(r#"#? "rotary.way" = "turns" # how (A.NC:3)"#));
         assert!(!asked.contains_key("start"));

@@ -19,6 +19,7 @@ mod site_rows;
 mod start;
 mod text;
 mod there;
+mod unseen;
 mod variables;
 mod words;
 
