@@ -279,6 +279,7 @@ fn apply(
     controls: [&Control; 2],
 ) {
     program.verdict = Some(found.outcome);
+    program.diagnostics.extend(never_run(found).map(|text| Diagnostic::new(Code::NotRun, span, text)));
     match found.outcome {
         verify::Outcome::Same => {}
         verify::Outcome::Undecided => {
@@ -328,4 +329,22 @@ fn apply(
         program.diagnostics.push(told);
         program.outcome = program.outcome.max(Outcome::Review);
     }
+}
+
+/// Ways that a note names.
+const NAMED: usize = 3;
+
+/// What no run went because the program's own numbers decide it; the target's branches where the source has none.
+fn never_run(found: &verify::ProgramCertificate) -> Option<String> {
+    let theirs = found.by_own_numbers.is_empty();
+    let ways = if theirs { &found.target_by_own_numbers } else { &found.by_own_numbers };
+    let whose = if theirs { " of the target" } else { "" };
+    let named = ways.iter().take(NAMED);
+    let named =
+        named.map(|way| format!("'{}' in line {}{whose} is never {}", way.text.trim(), way.line, way.way));
+    let more = ways.len().saturating_sub(NAMED);
+    let rest = (more > 0).then(|| format!("and {more} more"));
+    let all: Vec<String> = named.chain(rest).collect();
+    (!all.is_empty())
+        .then(|| format!("with the numbers that stand in the program, {}: no run went there", all.join("; ")))
 }

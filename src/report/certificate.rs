@@ -42,6 +42,12 @@ fn of_program(out: &mut String, found: &ProgramCertificate) {
     list(out, "Ways of the target that no scenario went", found.target_not_reached.iter().map(way));
     list(
         out,
+        "Ways of the source that only other numbers in it would go",
+        found.by_own_numbers.iter().map(way),
+    );
+    list(out, "The same of the target", found.target_by_own_numbers.iter().map(way));
+    list(
+        out,
         "Ways to an alarm that no scenario went, and that both texts write alike",
         found.by_text.iter().map(way),
     );

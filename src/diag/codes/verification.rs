@@ -32,6 +32,11 @@ Look for the loop at this place; a scenario file can set inputs. If the program 
 "The emulated control met a block that it cannot read or run, or a call of a program that it does not have.
 
 Name the files of called programs with `--library`."
+
+    "0807" NotRun Note "numbers in the program decide a branch"
+"A branch of the program always goes one way, whatever the machine or the operator gives it: only other numbers in its own text would send it the other way. Other numbers were tried at its head, on both sides, and none went there, so no run shows what the conversion does there. The program as it stands does the same on both sides.
+
+If you change such a number on the machine, read first what stands after that branch, or convert the program with the new number."
         }
     };
 }

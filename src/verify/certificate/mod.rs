@@ -13,5 +13,5 @@ pub use library::{Certificate, Identity};
 pub use listing::{Change, Listing, Seen};
 pub use moment::Moment;
 pub use outcome::{Outcome, Reason, Why};
-pub use program::{Assumed, Edit, ProgramCertificate, Witness};
+pub use program::{Assumed, Edit, ProgramCertificate, Witness, differ};
 pub use unconfirmed::OpenFact;

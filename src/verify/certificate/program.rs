@@ -50,6 +50,10 @@ pub struct ProgramCertificate {
     pub target_not_reached: Vec<NotReached>,
     /// Ways of the source that only raise an alarm and that no run went: both texts say the same there.
     pub by_text: Vec<NotReached>,
+    /// Ways of the source that no run of it can go, whatever it finds: only other numbers in its text would. Nobody ran them.
+    pub by_own_numbers: Vec<NotReached>,
+    /// The same of the target.
+    pub target_by_own_numbers: Vec<NotReached>,
     /// Constants that were edited alike in both texts, each to go a way that it decides; those ways were gone.
     pub edits: Vec<Edit>,
     /// Positions count as the same up to here where words round, millimetres.
@@ -106,16 +110,16 @@ pub struct Edit {
     pub target_line: u32,
     /// What stood there instead.
     pub value: f64,
+    /// Edits that were made together have one number, counted from 1.
+    pub together: usize,
 }
 
-impl Edit {
-    /// That the two texts differ with it.
-    pub fn differs(&self, what: &str) -> String {
-        let Self { variable, line, register, target_line, value } = self;
-        format!(
-            "with {value} for {variable} in line {line} and for {register} in line {target_line} they differ: {what}"
-        )
-    }
+/// That the two texts differ with these edits.
+pub fn differ(edits: &[Edit], what: &str) -> String {
+    let each = edits.iter().map(|Edit { variable, line, register, target_line, value, .. }| {
+        format!("{value} for {variable} in line {line} and for {register} in line {target_line}")
+    });
+    format!("with {} they differ: {what}", each.collect::<Vec<_>>().join(", with "))
 }
 
 /// Where two programs differ.

@@ -7,26 +7,19 @@
 //! with that value for which both sides do the same. Ways that the source goes so count where both sides did the
 //! same. Where they part, the program is undecided: a person sees whether that literal is the one.
 
-use super::summary::lacks_locals;
+use super::steered::{Way, all_near, gone, is_same};
+use super::twins::{Constant, Twins, constants};
 use super::verifier::Verifier;
-use crate::control::ProgramRef;
-use crate::dialect::Control;
-use crate::syntax::{Expr, ExprKind, Item, ItemKind, VarRef};
+use crate::control::{ProgramRef, Run, Scenario};
 use crate::text::Span;
-use crate::verify::certificate::{Edit, Why};
-use crate::verify::explore::{Proposals, ends_head, inputs, unit};
-use crate::verify::sides::{EditedText, Effort, Job, Side, name_of, of_target};
+use crate::verify::certificate::{Edit, Why, differ};
+use crate::verify::explore::{Inputs, Proposals, inputs, unit};
+use crate::verify::sides::{EditedText, Effort, Job};
 use crate::verify::triage::moved;
 use std::collections::BTreeSet;
 
-/// Constants of a program that are edited, at the most.
-const CONSTANTS: usize = 32;
-
 /// Values that each is given, at the most.
 const VALUES: usize = 32;
-
-/// Registers that are tried where the lock does not say which holds a constant, at the most.
-const TWINS: usize = 4;
 
 /// Edits for ways that the target alone has left.
 const FOR_THE_TARGET: usize = 48;
@@ -36,12 +29,43 @@ const SEARCHED: usize = 3;
 const SEARCH: [usize; 2] = [48, 120];
 const SEARCH_STEPS: u64 = 200_000;
 
-/// The first assignment of a variable, where it is a literal.
-#[derive(Clone, Debug, PartialEq)]
-struct Constant {
-    name: String,
-    value: f64,
-    span: Span,
+/// A literal, and what is to stand in its place.
+pub(super) type Change<'c> = (&'c Twins, f64);
+
+/// A way that is looked for with edited texts.
+#[derive(Clone, Copy)]
+pub(super) struct Aim {
+    pub(super) way: Way,
+    /// True for a way of the target.
+    pub(super) on_target: bool,
+}
+
+impl Aim {
+    /// No way: only how near the others are is wanted.
+    pub(super) const NONE: Way = ((usize::MAX, Span::new(0, 0)), 0);
+
+    /// How near a run came to it, and whether it went there; `back` says where its places stood before the edits.
+    fn seen(&self, run: &Run, back: &dyn Fn(usize, Span) -> Span) -> Edited {
+        let near = all_near(run).into_iter().map(|(way, distance)| (moved_back(way, back), distance));
+        let near: Vec<(Way, f64)> = near.collect();
+        let went = gone(run).any(|way| is_same(moved_back(way, back), self.way));
+        Edited { is_new: false, near, went }
+    }
+}
+
+fn moved_back(((file, span), way): Way, back: &dyn Fn(usize, Span) -> Span) -> Way {
+    ((file, back(file, span)), way)
+}
+
+/// What both sides did with edited texts.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Edited {
+    /// They did the same, and one of them went a new way.
+    pub(super) is_new: bool,
+    /// How near the side that has the aim came to the ways that it did not go.
+    pub(super) near: Vec<(Way, f64)>,
+    /// It went there.
+    pub(super) went: bool,
 }
 
 impl Verifier<'_, '_> {
@@ -50,114 +74,126 @@ impl Verifier<'_, '_> {
         if self.called || self.witness.is_some() || self.compared == 0 || self.went_every_way() {
             return;
         }
-        let Job { source, target, names, .. } = self.job;
-        // What the source calls by a block number of its own may be a program of its own there.
-        let others = of_target(self.job, self.program).into_iter().filter(|part| *part != there);
-        let parts = std::iter::once(there).chain(others);
-        let theirs: Vec<(ProgramRef, Constant)> = parts
-            .flat_map(|part| constants(target, part, false).into_iter().map(move |twin| (part, twin)))
-            .collect();
-        let numbers = inputs(source, self.program, target).numbers;
-        let mut left = Left { steps: self.job.effort.all_steps, searches: SEARCHED };
-        let mut for_target = FOR_THE_TARGET;
-        for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
-            let named = names.variable(&constant.name, source.control, target.control);
-            let (is_named, alike) = (named.is_some(), |twin: &Constant| twin.value == constant.value);
-            let twins: Vec<_> = match named {
-                Some(named) => {
-                    let twin = theirs.iter().find(|(_, twin)| twin.name == named);
-                    twin.filter(|(_, twin)| alike(twin)).into_iter().collect()
-                }
-                // The registers of locals have no names in the lock: each that has the value may be it.
-                None if lacks_locals(self.job) => {
-                    let held = |twin: &Constant| names.of_source(&twin.name, source.control, target.control);
-                    let unnamed = theirs.iter().filter(|(_, twin)| alike(twin) && held(twin).is_none());
-                    unnamed.take(TWINS).collect()
-                }
-                None => continue,
-            };
-            for value in values(constant.value, &numbers) {
-                for twin in &twins {
+        let Job { source, target, effort, .. } = *self.job;
+        let found = inputs(source, self.program, target);
+        let Some(scenario) = self.usual(&found) else { return };
+        let mut left = Left { steps: effort.all_steps, searches: SEARCHED };
+        let (mut for_target, mut twins, mut starts) = (FOR_THE_TARGET, Vec::new(), Vec::new());
+        'all: for (constant, may_be) in self.all_twins(there) {
+            let mut is_it = may_be.first().filter(|_| may_be.len() == 1).cloned();
+            for value in values(constant.value, &found.numbers) {
+                for twin in &may_be {
                     if self.went_every_way() || left.steps == 0 || for_target == 0 || self.is_out_of_time() {
-                        return;
+                        break 'all;
                     }
                     for_target -= usize::from(self.coverage.is_complete());
-                    if self.edit(there, (&constant, twin), (value, is_named), &mut left) {
+                    if self.edit(there, &[(twin, value)], (&scenario, None), &mut left).is_new {
+                        is_it = Some(twin.clone());
+                        starts.push((twins.len(), value));
                         break;
                     }
                 }
             }
+            twins.extend(is_it);
         }
+        self.steer_by_edits(there, (&twins, &starts), (&scenario, &found), &mut left);
     }
 
-    /// Runs both sides with another literal, where the source goes a new way by it. A difference counts where the lock has named the
-    /// register; else it is another one. True where both did the same.
-    fn edit(
-        &mut self,
-        there: ProgramRef,
-        (ours, (part, theirs)): (&Constant, &(ProgramRef, Constant)),
-        (value, is_named): (f64, bool),
-        left: &mut Left,
-    ) -> bool {
-        let Job { source, target, names, assumptions, effort, spent } = *self.job;
-        let Some(text) = EditedText::new(&source.texts(), self.program, ours.span, value) else {
-            return false;
-        };
-        let blocks = text.parse(&source.texts());
-        let Some(new_source) = source.edited(self.program, &text, text.own(&blocks)) else { return false };
-        let told = Constant { value, ..ours.clone() };
-        if !constants(&new_source, self.program, true)
-            .iter()
-            .any(|c| (&c.name, c.value) == (&told.name, value))
-        {
-            return false;
-        }
-        let found = inputs(&new_source, self.program, target);
+    /// The first scenario of a program with these inputs.
+    fn usual(&self, found: &Inputs) -> Option<Scenario> {
+        let Job { source, target, effort, .. } = *self.job;
         let inch = unit(source, target).or(found.inch);
-        let Some(mut scenario) = Proposals::new(&found, effort).next() else { return false };
+        let mut scenario = Proposals::new(found, effort).next()?;
         scenario.inch = inch;
         self.given.start(&mut scenario);
-        let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
+        Some(scenario)
+    }
+
+    /// Runs both sides with other literals, and compares them if the source goes a new way by that, or one of them the way that
+    /// is aimed at. A difference counts where the lock has named the registers; else one of them is another one.
+    pub(super) fn edit(
+        &mut self,
+        there: ProgramRef,
+        changes: &[Change<'_>],
+        (scenario, aim): (&Scenario, Option<Aim>),
+        left: &mut Left,
+    ) -> Edited {
+        self.edited_pair(there, changes, (scenario, aim), left).unwrap_or_default()
+    }
+
+    fn edited_pair(
+        &mut self,
+        there: ProgramRef,
+        changes: &[Change<'_>],
+        (scenario, aim): (&Scenario, Option<Aim>),
+        left: &mut Left,
+    ) -> Option<Edited> {
+        let Job { source, target, names, assumptions, effort, spent } = *self.job;
+        let part = changes.first()?.0.part;
+        let literals = |of: fn(&Twins) -> &Constant| -> Vec<(Span, f64)> {
+            changes.iter().map(|(twins, value)| (of(twins).span, *value)).collect()
+        };
+        let text = EditedText::new(&source.texts(), self.program, &literals(|twins| &twins.ours))?;
+        let blocks = text.parse(&source.texts());
+        let new_source = source.edited(self.program, &text, text.own(&blocks))?;
+        let stands = |all: &[Constant], of: fn(&Twins) -> &Constant| {
+            let told = |(twins, value): &Change<'_>| {
+                all.iter().any(|found| (&found.name, found.value) == (&of(twins).name, *value))
+            };
+            changes.iter().all(told)
+        };
+        if !stands(&constants(&new_source, self.program, true), |twins| &twins.ours) {
+            return None;
+        }
+        let run = (source.execute)(&new_source.library, self.program, source.control, scenario);
         left.steps = left.steps.saturating_sub(run.steps);
+        let ours_back = back(&text, self.program.file);
         let mut coverage = self.coverage.clone();
-        let new = coverage.add_moved(&run, &back(&text, self.program.file));
-        if !new && self.target_coverage.is_complete() {
-            return false;
+        let new = coverage.add_moved(&run, &ours_back);
+        let of_source = aim.filter(|aim| !aim.on_target);
+        let mut found = of_source.map_or_else(Edited::default, |aim| aim.seen(&run, &ours_back));
+        let on_target = aim.filter(|aim| aim.on_target);
+        let wanted = aim.is_none() && !self.target_coverage.is_complete();
+        if !new && !found.went && on_target.is_none() && !wanted {
+            return Some(found);
         }
-        let Some(other) = EditedText::new(&target.texts(), *part, theirs.span, value) else { return false };
+        let other = EditedText::new(&target.texts(), part, &literals(|twins| &twins.theirs))?;
         let blocks = other.parse(&target.texts());
-        let Some(new_target) = target.edited(*part, &other, other.own(&blocks)) else { return false };
+        let new_target = target.edited(part, &other, other.own(&blocks))?;
         new_target.take_over(target, new_source.stands_as(source));
-        if !constants(&new_target, *part, false).iter().any(|c| c.name == theirs.name && c.value == value) {
-            return false;
+        if !stands(&constants(&new_target, part, false), |twins| &twins.theirs) {
+            return None;
         }
+        let theirs_back = back(&other, part.file);
         let entered = new_source.links().entered(&run).chain([self.program]);
         let assumptions = moved(assumptions, entered, self.program, |place| text.now(place));
         let job =
             Job { source: &new_source, target: &new_target, names, assumptions: &assumptions, effort, spent };
         let mut pair = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
-        pair.compare(&scenario, &run, there);
-        let mut target_coverage = self.target_coverage.clone();
-        let new_there = target_coverage.add_gone(&pair.target_coverage, &back(&other, part.file));
-        if !new_there && !new && pair.witness.is_none() {
-            return false;
-        }
-        let edit = Edit {
-            variable: ours.name.clone(),
-            line: source.line_of(self.program.file, ours.span.start).0,
-            register: theirs.name.clone(),
-            target_line: target.line_of(part.file, theirs.span.start).0,
-            value,
-        };
-        if let Some(witness) = &pair.witness {
-            if is_named {
-                self.because(Why::Edited, &edit.differs(&witness.what));
+        if let Some(aim) = on_target {
+            let run_there = new_target.run(there, &pair.circumstances(scenario, &run));
+            found = aim.seen(&run_there, &theirs_back);
+            if !found.went && !new {
+                return Some(found);
             }
-            return false;
+        }
+        pair.compare(scenario, &run, there);
+        let mut target_coverage = self.target_coverage.clone();
+        let new_there = target_coverage.add_gone(&pair.target_coverage, &theirs_back);
+        if !new_there && !new && pair.witness.is_none() {
+            return Some(found);
+        }
+        let edits = self.as_edits(changes);
+        let is_named = changes.iter().all(|(twins, _)| twins.is_named);
+        if let Some(witness) = pair.witness.as_ref() {
+            if is_named {
+                self.because(Why::Edited, &differ(&edits, &witness.what));
+            }
+            return Some(found);
         }
         // What comes to no end on both sides, as a stop that is jumped back to, is compared as far as it went.
         if (pair.compared == 0 && pair.endless.is_empty()) || !pair.reasons.is_empty() {
-            return false;
+            return Some(found);
         }
         self.coverage = coverage;
         self.target_coverage = target_coverage;
@@ -167,10 +203,10 @@ impl Verifier<'_, '_> {
             let mut wide = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
             wide.search(there);
             match &wide.witness {
-                Some(witness) if is_named => self.because(Why::Edited, &edit.differs(&witness.what)),
+                Some(witness) if is_named => self.because(Why::Edited, &differ(&edits, &witness.what)),
                 None if wide.compared > 0 && wide.reasons.is_empty() => {
-                    self.coverage.add_gone(&wide.coverage, &back(&text, self.program.file));
-                    self.target_coverage.add_gone(&wide.target_coverage, &back(&other, part.file));
+                    self.coverage.add_gone(&wide.coverage, &ours_back);
+                    self.target_coverage.add_gone(&wide.target_coverage, &theirs_back);
                     self.take_in(wide);
                 }
                 _ => {}
@@ -183,15 +219,31 @@ impl Verifier<'_, '_> {
         for (fact, text) in pair.unconfirmed {
             self.unconfirmed.entry(fact).or_insert(text);
         }
-        self.edits.push(edit);
-        true
+        self.edits.extend(edits);
+        found.is_new = true;
+        Some(found)
+    }
+
+    /// Changes as a certificate has them.
+    fn as_edits(&self, changes: &[Change<'_>]) -> Vec<Edit> {
+        let Job { source, target, .. } = self.job;
+        let together = self.edits.last().map_or(0, |last| last.together) + 1;
+        let edit = |(Twins { ours, part, theirs, .. }, value): &Change<'_>| Edit {
+            variable: ours.name.clone(),
+            line: source.line_of(self.program.file, ours.span.start).0,
+            register: theirs.name.clone(),
+            target_line: target.line_of(part.file, theirs.span.start).0,
+            value: *value,
+            together,
+        };
+        changes.iter().map(edit).collect()
     }
 }
 
 /// What edits may still do.
-struct Left {
+pub(super) struct Left {
     /// Blocks that runs of the source may execute.
-    steps: u64,
+    pub(super) steps: u64,
     /// Edited texts of which all ways may be searched for.
     searches: usize,
 }
@@ -203,62 +255,8 @@ fn narrow(effort: Effort) -> Effort {
     Effort { scenarios: effort.scenarios.min(scenarios), tries: effort.tries.min(tries), all_steps, ..effort }
 }
 
-/// The variables whose first assignment in a program's text is a literal; of a head, those before anything can branch.
-fn constants(side: &Side<'_>, program: ProgramRef, head: bool) -> Vec<Constant> {
-    let (mut written, mut found) = (BTreeSet::new(), Vec::new());
-    for block in side.text(program) {
-        let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
-        for item in &block.items {
-            if head && ends_head(item) {
-                return found;
-            }
-            for (name, value) in writes(item, side.control) {
-                // What may be anything may be this variable.
-                let Some(name) = name else { return found };
-                let first = written.insert(name.clone());
-                if let Some(value) = value.filter(|_| first && !skipped)
-                    && let Some(number) = literal(value)
-                {
-                    found.push(Constant { name, value: number, span: value.span });
-                }
-            }
-        }
-    }
-    found
-}
-
-/// What an item writes: the variable's name where that is written, and the value where it is an assignment for sure.
-fn writes<'t>(item: &'t Item, control: &Control) -> Vec<(Option<String>, Option<&'t Expr>)> {
-    let name_of = |variable: &VarRef| name_of(variable, control);
-    match &item.kind {
-        ItemKind::Assign { target, value, by_sign: false } => vec![(name_of(target), Some(value))],
-        ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } | ItemKind::Timer(target) => {
-            vec![(name_of(target), None)]
-        }
-        ItemKind::Input { targets, .. } => targets.iter().map(|target| (name_of(target), None)).collect(),
-        ItemKind::Transfer { cells, .. } => {
-            cells.iter().filter(|cell| !cell.store).map(|cell| (name_of(&cell.variable), None)).collect()
-        }
-        ItemKind::If { body, .. } => {
-            body.iter().flat_map(|item| writes(item, control)).map(|(name, _)| (name, None)).collect()
-        }
-        _ => Vec::new(),
-    }
-}
-
-fn literal(e: &Expr) -> Option<f64> {
-    match &e.kind {
-        ExprKind::Number(number) => Some(number.value),
-        ExprKind::Negate(inner) => match &inner.kind {
-            ExprKind::Number(number) => Some(-number.value),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
 /// Values worth a try: what conditions name, and what lies about the constant.
-fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
+pub(super) fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
     // A step that is no part of its way goes beyond the end of it.
     let uneven = [0.7, 1.3].map(|by| (constant * by * 1e4).round() / 1e4);
     let about =
@@ -272,7 +270,7 @@ fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
 }
 
 /// Where the places of an edited program stood before, by the file that it stands in.
-fn back(text: &EditedText, edited: usize) -> impl Fn(usize, Span) -> Span {
+pub(super) fn back(text: &EditedText, edited: usize) -> impl Fn(usize, Span) -> Span {
     move |file, span| match file == edited {
         true => Span::new(text.before(span.start), text.before(span.end)),
         false => span,

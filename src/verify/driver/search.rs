@@ -98,7 +98,7 @@ impl Verifier<'_, '_> {
             let telling = proposals.are_telling();
             let ends = endless < ENDLESS || !is_cut(&run);
             if ends && (starts.len() < STARTS || new && starts.len() < NEW_STARTS) {
-                starts.push(Circumstances { scenario: scenario.clone(), theirs: self.theirs.clone() });
+                starts.push(Circumstances::new(scenario.clone(), self.theirs.clone()));
             }
             let spare = self.compared < effort.fewest && self.tried.is_multiple_of(2);
             let wanted = !self.target_coverage.is_complete() && for_target < FOR_THE_TARGET;
@@ -247,7 +247,7 @@ impl Verifier<'_, '_> {
             let new_there = self.compare(&scenario, &run, there);
             self.tell(&scenario, &run, new || new_there);
         }
-        Some(Circumstances { scenario, theirs: self.theirs.clone() })
+        Some(Circumstances::new(scenario, self.theirs.clone()))
     }
 
     /// A run of the source; a long way to its end is tried once.

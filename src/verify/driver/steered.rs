@@ -23,7 +23,7 @@ const TOUCHES: usize = 8;
 /// Inputs that are steered for one way, at the most.
 const MOST_STEERED: usize = 40;
 /// A way that a branch has left: the branch by its file and place, and the way.
-type Way = ((usize, Span), i64);
+pub(super) type Way = ((usize, Span), i64);
 
 /// Searches for one way, each from another start: where numbers meet because they are all 0 no small step leads elsewhere.
 const SEARCHES: usize = 3;
@@ -155,7 +155,7 @@ impl Verifier<'_, '_> {
             return None;
         }
         for start in starts.iter_mut().filter(|start| start.near[usize::from(on_target)].is_none()) {
-            let Circumstances { scenario, theirs } = &start.circumstances;
+            let Circumstances { scenario, theirs, .. } = &start.circumstances;
             let mut run = self.run_source(scenario);
             start.reached = self.reached(&run);
             if on_target {
@@ -233,14 +233,14 @@ impl Verifier<'_, '_> {
 }
 
 /// How near a run came to each way that its branches did not go.
-fn all_near(run: &Run) -> Vec<(Way, f64)> {
+pub(super) fn all_near(run: &Run) -> Vec<(Way, f64)> {
     let named =
         |(at, way): &(Place, i64)| Some(((run.programs.get(at.program as usize)?.file, at.span), *way));
     run.nearest.iter().filter_map(|(way, distance)| Some((named(way)?, *distance))).collect()
 }
 
 /// The least distance to a way; none if the run did not come to its branch.
-fn least(near: &[(Way, f64)], way: Way) -> Option<f64> {
+pub(super) fn least(near: &[(Way, f64)], way: Way) -> Option<f64> {
     near.iter()
         .filter(|(other, _)| is_same(*other, way))
         .map(|(_, distance)| *distance)
@@ -249,13 +249,19 @@ fn least(near: &[(Way, f64)], way: Way) -> Option<f64> {
 
 /// True for a run that went a way.
 fn goes(run: &Run, way: Way) -> bool {
-    run.branches.iter().any(|(branch, ways)| {
-        let Some(program) = run.programs.get(branch.at.program as usize) else { return false };
-        ways.iter().any(|other| is_same(((program.file, branch.at.span), *other), way))
+    gone(run).any(|other| is_same(other, way))
+}
+
+/// The ways that a run went.
+pub(super) fn gone(run: &Run) -> impl Iterator<Item = Way> {
+    run.branches.iter().flat_map(|(branch, ways)| {
+        let program = run.programs.get(branch.at.program as usize);
+        let place = program.map(|program| (program.file, branch.at.span));
+        place.into_iter().flat_map(|place| ways.iter().map(move |way| (place, *way)))
     })
 }
 
 /// True for one way of one branch: some controls name it by its condition, others by its block.
-fn is_same(((file, span), way): Way, ((other_file, other), other_way): Way) -> bool {
+pub(super) fn is_same(((file, span), way): Way, ((other_file, other), other_way): Way) -> bool {
     file == other_file && way == other_way && span.start < other.end && other.start < span.end
 }

@@ -4,7 +4,7 @@ use super::verifier::Verifier;
 use crate::canon::Op;
 use crate::control::ProgramRef;
 use crate::verify::certificate::{OpenFact, Outcome, ProgramCertificate, Reason, Why};
-use crate::verify::explore::{Coverage, NotReached, compare_alarms};
+use crate::verify::explore::{Coverage, NotReached, by_own_numbers, compare_alarms};
 use crate::verify::sides::Job;
 use crate::verify::triage::through;
 
@@ -18,6 +18,7 @@ impl Verifier<'_, '_> {
         if there.is_some() && self.witness.is_none() {
             compare_alarms(self.job, self.program, &mut self.coverage, &mut self.target_coverage);
         }
+        self.set_own_aside(there);
         let by_text = self.coverage.by_text(self.job.source);
         let ways = |coverage: &Coverage, side| there.map_or(Vec::new(), |_| coverage.not_reached(side));
         let not_reached = ways(&self.coverage, self.job.source);
@@ -84,6 +85,8 @@ impl Verifier<'_, '_> {
             target_branches_total,
             target_not_reached,
             by_text,
+            by_own_numbers: self.coverage.aside(self.job.source),
+            target_by_own_numbers: self.target_coverage.aside(self.job.target),
             edits: self.edits,
             tolerance_mm: self.tolerance.rounded,
             largest_difference_mm: self.largest,
@@ -96,6 +99,21 @@ impl Verifier<'_, '_> {
             entered: self.entered,
             assumptions,
         }
+    }
+
+    /// Sets ways aside that no run of the programs as they stand can go. What is called gets its numbers from callers.
+    fn set_own_aside(&mut self, there: Option<ProgramRef>) {
+        if self.called || self.witness.is_some() || self.went_every_way() {
+            return;
+        }
+        let (Some(there), Some((scenario, theirs))) = (there, self.telling.first().cloned()) else { return };
+        self.theirs = theirs;
+        let run = self.run_source(&scenario);
+        let other = self.job.target.run(there, &self.circumstances(&scenario, &run));
+        let own = by_own_numbers(self.job.source, self.program, &run);
+        self.coverage.set_aside(self.program.file, &own);
+        let own = by_own_numbers(self.job.target, there, &other);
+        self.target_coverage.set_aside(there.file, &own);
     }
 
     /// True if nothing is open but that the source's control stops a program which is run by itself, as a peck cycle whose

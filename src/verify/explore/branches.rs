@@ -36,6 +36,8 @@ pub struct Coverage {
     impossible: BTreeSet<(Place, i64)>,
     /// Ways that were compared by reading both texts.
     read: BTreeSet<(Place, i64)>,
+    /// Ways that only other numbers in the program itself would go.
+    own: BTreeSet<(Place, i64)>,
 }
 
 impl Coverage {
@@ -62,7 +64,14 @@ impl Coverage {
         }
         let longest =
             branches.keys().map(|(_, span): &Place| span.end.saturating_sub(span.start)).max().unwrap_or(0);
-        Self { branches, longest, seen: BTreeSet::new(), impossible: never, read: BTreeSet::new() }
+        Self {
+            branches,
+            longest,
+            seen: BTreeSet::new(),
+            impossible: never,
+            read: BTreeSet::new(),
+            own: BTreeSet::new(),
+        }
     }
 
     /// Notes where a run went. True where that was new.
@@ -134,8 +143,9 @@ impl Coverage {
     fn missing(&self) -> impl Iterator<Item = (Place, &'static str)> + '_ {
         self.branches.iter().flat_map(|(place, (computed, seen))| {
             let none = (*computed && seen.is_empty()).then_some((*place, "taken"));
-            let settled =
-                |way: i64| self.impossible.contains(&(*place, way)) || self.read.contains(&(*place, way));
+            let settled = |way: i64| {
+                [&self.impossible, &self.read, &self.own].iter().any(|ways| ways.contains(&(*place, way)))
+            };
             let lacks = |way: i64| !computed && !seen.contains(&way) && !settled(way);
             let no = lacks(0).then_some((*place, "false"));
             let yes = lacks(1).then_some((*place, "true"));
@@ -162,6 +172,19 @@ impl Coverage {
     /// Takes a way for compared, because both texts say the same there.
     pub(super) fn read(&mut self, place: Place, way: i64) {
         self.read.insert((place, way));
+    }
+
+    /// Sets the ways aside that branches have left which the program's own numbers decide: those at these places.
+    pub fn set_aside(&mut self, file: usize, own: &BTreeSet<Span>) {
+        let left = self.left().into_iter();
+        let ours = left.filter(|((of, span), _)| *of == file && own.contains(span));
+        self.own = ours.collect();
+    }
+
+    /// The ways that were set aside.
+    pub fn aside(&self, side: &Side<'_>) -> Vec<NotReached> {
+        let named = |way: i64| if way == 0 { "false" } else { "true" };
+        self.own.iter().map(|(place, way)| told(side, *place, named(*way))).collect()
     }
 
     /// The ways that were compared by reading both texts.

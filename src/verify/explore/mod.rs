@@ -19,5 +19,5 @@ pub use inputs::{Inputs, inputs, inputs_of_both};
 pub use nearby::{hangs_on, in_order};
 pub use on_target::{asked, on_target, set_by_hand, unit};
 pub use scenarios::Proposals;
-pub use settled::is_settled;
+pub use settled::{by_own_numbers, is_settled};
 pub use steer::{Attempt, Circumstances, Input, Steer, inputs_of};

@@ -6,6 +6,7 @@
 //! all that any of them writes into it, a local on all words of any block, for each may be an argument.
 
 mod exposed;
+mod own;
 
 use crate::canon::{Op, Sys};
 use crate::control::trace::{EventKind, Place};
@@ -16,6 +17,7 @@ use crate::syntax::{
 };
 use crate::verify::sides::{Side, class_of, name_of};
 use exposed::exposed;
+pub use own::by_own_numbers;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What something rests on.
@@ -44,8 +46,7 @@ pub fn is_settled(side: &Side<'_>, run: &Run, is_free: &dyn Fn(&str) -> bool) ->
     if run.events.iter().any(|event| open(&event.what)) {
         return false;
     }
-    let mut rests =
-        Rests { control: side.control, on: BTreeMap::new(), ways: BTreeSet::new(), gives_arguments: false };
+    let mut rests = Rests::new(side.control);
     let programs: BTreeSet<ProgramRef> =
         run.programs.iter().flat_map(|ran| side.links().of_run(ran)).copied().collect();
     // Another run may go on where the control stopped this one, but not where a statement alone makes it stop.
@@ -76,9 +77,18 @@ struct Rests<'c> {
     ways: BTreeSet<Node>,
     /// True if a code gives words to locals.
     gives_arguments: bool,
+    /// True if codes in force may be those that the machine began with.
+    modes_are_open: bool,
+    /// True if something may write any variable: a message that the operator answers, a block that is not read.
+    is_open: bool,
 }
 
-impl Rests<'_> {
+impl<'c> Rests<'c> {
+    fn new(control: &'c Control) -> Self {
+        let (on, ways) = (BTreeMap::new(), BTreeSet::new());
+        Self { control, on, ways, gives_arguments: false, modes_are_open: false, is_open: false }
+    }
+
     /// Takes in what a block without words rests on that raised an alarm. False for any other.
     fn stops_at(
         &mut self,
@@ -138,7 +148,10 @@ impl Rests<'_> {
             }
             // It empties them, always the same.
             Clear(_) => {}
-            Unparsed => _ = self.ways.insert(Node::Outside),
+            Unparsed => {
+                self.ways.insert(Node::Outside);
+                self.is_open = true;
+            }
             _ => {}
         }
     }
@@ -167,6 +180,7 @@ impl Rests<'_> {
         // Its text may ask for a variable.
         if self.state_of(target) == Some(Sys::StopMessage) {
             self.ways.insert(Node::Outside);
+            self.is_open = true;
         }
         let read = self.read_in(value);
         self.rest(Node::Register, read.clone());
@@ -204,6 +218,7 @@ impl Rests<'_> {
     fn read(&self, variable: &VarRef) -> BTreeSet<Node> {
         match (self.state_of(variable), name_of(variable, self.control)) {
             // The codes in force are what the program, and the state that it starts in, make them.
+            (Some(Sys::Modal), _) if self.modes_are_open => [Node::Outside].into(),
             (Some(Sys::Modal | Sys::Empty | Sys::Pi | Sys::Euler), _) => BTreeSet::new(),
             (None, Some(name)) => [Node::Variable(name)].into(),
             _ => [Node::Outside].into(),
@@ -225,8 +240,13 @@ impl Rests<'_> {
 
     /// True if nothing that the way rests on differs from run to run.
     fn are_settled(&self, is_free: &dyn Fn(&str) -> bool) -> bool {
+        self.is_closed(&self.ways, is_free)
+    }
+
+    /// True if nothing that these rest on differs from run to run.
+    fn is_closed(&self, on: &BTreeSet<Node>, is_free: &dyn Fn(&str) -> bool) -> bool {
         let mut seen = BTreeSet::new();
-        let mut open: Vec<Node> = self.ways.iter().cloned().collect();
+        let mut open: Vec<Node> = on.iter().cloned().collect();
         while let Some(node) = open.pop() {
             if !seen.insert(node.clone()) {
                 continue;

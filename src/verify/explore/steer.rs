@@ -191,7 +191,7 @@ mod tests {
 
     fn start(values: &[(&str, f64)]) -> Circumstances {
         let variables = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        Circumstances { scenario: Scenario { variables, ..Scenario::default() }, theirs: BTreeMap::new() }
+        Circumstances::new(Scenario { variables, ..Scenario::default() }, BTreeMap::new())
     }
 
     fn variables(names: &[&str]) -> Vec<Input> {

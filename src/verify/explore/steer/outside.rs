@@ -13,6 +13,15 @@ pub struct Circumstances {
     pub scenario: Scenario,
     /// What is in registers of the target alone.
     pub theirs: BTreeMap<String, f64>,
+    /// What stands in place of literals that are edited alike on both sides.
+    pub literals: Vec<f64>,
+}
+
+impl Circumstances {
+    /// Circumstances of texts as they stand.
+    pub fn new(scenario: Scenario, theirs: BTreeMap<String, f64>) -> Self {
+        Self { scenario, theirs, literals: Vec::new() }
+    }
 }
 
 /// One number that a program takes from outside.
@@ -42,6 +51,8 @@ pub enum Input {
     Time,
     /// The day, counted from some day on.
     Day,
+    /// A literal that is edited alike on both sides, by place.
+    Literal(usize),
 }
 
 /// Answers that are steered.
@@ -124,7 +135,7 @@ impl Input {
 
     /// What it is.
     pub fn get(&self, from: &Circumstances) -> f64 {
-        let Circumstances { scenario, theirs } = from;
+        let Circumstances { scenario, theirs, literals } = from;
         let found = match self {
             Input::Variable(name, false) => scenario.variables.get(name).copied(),
             Input::Variable(name, true) => theirs.get(name).copied(),
@@ -146,6 +157,7 @@ impl Input {
             Input::Tool => Some(f64::from(scenario.tool)),
             Input::Time => Some(seconds_of(scenario.time)),
             Input::Day => Some(day_of(scenario.date)),
+            Input::Literal(at) => literals.get(*at).copied(),
         };
         found.unwrap_or(0.0)
     }
@@ -190,6 +202,8 @@ impl Input {
             }
             Input::Time => scenario.time = time_at(value)?,
             Input::Day => scenario.date = date_at(value)?,
+            // As many digits as people write.
+            Input::Literal(at) => *out.literals.get_mut(*at)? = (value * 1e6).round() / 1e6,
         }
         Some(out)
     }
