@@ -279,6 +279,8 @@ fn apply(
     controls: [&Control; 2],
 ) {
     program.verdict = Some(found.outcome);
+    let stops = found.source_stops.iter().map(|text| Diagnostic::new(Code::SourceStops, span, text.clone()));
+    program.diagnostics.extend(stops);
     program.diagnostics.extend(never_run(found).map(|text| Diagnostic::new(Code::NotRun, span, text)));
     match found.outcome {
         verify::Outcome::Same => {}

@@ -37,6 +37,11 @@ Name the files of called programs with `--library`."
 "A branch of the program always goes one way, whatever the machine or the operator gives it: only other numbers in its own text would send it the other way. Other numbers were tried at its head, on both sides, and none went there, so no run shows what the conversion does there. The program as it stands does the same on both sides.
 
 If you change such a number on the machine, read first what stands after that branch, or convert the program with the new number."
+
+    "0808" SourceStops Note "the old machine stops where the new one goes on"
+"With some values, as an offset number that is not there, the source's control stops with an alarm of its own. The target does not stop, or stops elsewhere. Values with which the old machine ran are not concerned: runs with those went every way, and both sides did the same.
+
+If people may give such values, let the program check them first."
         }
     };
 }

@@ -186,6 +186,7 @@ impl Verifier<'_, '_> {
         let edits = self.as_edits(changes);
         let is_named = changes.iter().all(|(twins, _)| twins.is_named);
         if let Some(witness) = pair.witness.as_ref() {
+            self.apart.extend(gone(&run).map(|way| moved_back(way, &ours_back)));
             if is_named {
                 self.because(Why::Edited, &differ(&edits, &witness.what));
             }

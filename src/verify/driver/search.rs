@@ -91,7 +91,7 @@ impl Verifier<'_, '_> {
             is_long = run.steps > steps || (is_long || self.tried == 0) && is_cut(&run);
             self.tried += 1;
             self.steps += run.steps;
-            let new = self.coverage.add(&run);
+            let new = self.coverage.add(&run) || self.makes_sound(&run);
             if is_cut(&run) && !new {
                 endless += 1;
             }
@@ -115,7 +115,7 @@ impl Verifier<'_, '_> {
             let told = !telling || self.compared >= effort.telling;
             let enough = told && (self.compared >= effort.fewest || barren);
             let done = enough
-                && (self.coverage.is_complete() && gone
+                && (self.coverage.is_complete() && gone && self.is_sound()
                     || self.is_settled(&mut settled, (&scenario, &run), there, &found));
             if self.witness.is_some()
                 || done
@@ -129,7 +129,7 @@ impl Verifier<'_, '_> {
         if endless >= ENDLESS {
             starts.retain(|start| start.scenario.steps <= ENDLESS_STEPS);
         }
-        if !self.went_every_way() && !settled.is_known() {
+        if (!self.went_every_way() || !self.is_sound()) && !settled.is_known() {
             starts = self.steer(there, &found, starts);
         }
         let came = self.steer_to_conditions(there, &found, &starts);

@@ -72,8 +72,7 @@ impl Verifier<'_, '_> {
                 let (begin, mut came) = (start.circumstances.clone(), Vec::new());
                 let touching = self.touching(&begin);
                 let order = inputs_of(inputs, &start.reached, &begin.scenario);
-                let place = Some(way.0).filter(|_| !on_target);
-                let order = self.in_order(order, place, &begin.scenario);
+                let order = self.in_order(order, Some((way.0, on_target)), &begin.scenario);
                 let values = |input: &Input| input.compared_with(inputs);
                 let is_reached = Cell::new(false);
                 let mut attempt = |circumstances: &Circumstances| {
@@ -98,11 +97,12 @@ impl Verifier<'_, '_> {
         starts.into_iter().map(|start| start.circumstances).collect()
     }
 
-    /// The inputs that what stands at a place of the source hangs on, and others. What callers give is not tried otherwise.
+    /// The inputs that what stands at a place of the source hangs on, or of the target where that is true, and others. What callers
+    /// give is not tried otherwise.
     pub(super) fn in_order(
         &self,
         all: Vec<Input>,
-        place: Option<(usize, Span)>,
+        place: Option<((usize, Span), bool)>,
         scenario: &Scenario,
     ) -> [Vec<Input>; 2] {
         let (is_given, held) = (self.given.is_known(), self.held());
@@ -112,11 +112,11 @@ impl Verifier<'_, '_> {
             _ => true,
         };
         let all = all.into_iter().filter(is_open).collect();
-        let (file, span) = place.unwrap_or_default();
-        let texts = &self.job.source.library.files;
+        let ((file, span), on_target) = place.unwrap_or_default();
+        let side = if on_target { self.job.target } else { self.job.source };
+        let texts = &side.library.files;
         let blocks = texts.get(file).filter(|_| place.is_some()).map_or(&[][..], |file| &file.parsed.blocks);
-        let [mut near, mut others] =
-            in_order(all, &hangs_on(blocks, span), self.job.source.control, scenario);
+        let [mut near, mut others] = in_order(all, &hangs_on(blocks, span), side.control, scenario);
         near.truncate(MOST_STEERED);
         others.truncate(MOST_STEERED - near.len());
         [near, others]
@@ -134,6 +134,13 @@ impl Verifier<'_, '_> {
         Some(begin)
     }
 
+    /// The ways of the source that are left, and those that only runs went which its control stopped.
+    fn left(&self) -> Vec<Way> {
+        let unsound =
+            if self.source_stops.is_empty() { Vec::new() } else { self.sound.lacks(&self.coverage) };
+        self.coverage.left().into_iter().chain(unsound).collect()
+    }
+
     /// True once its time or its steps are used up.
     pub(super) fn is_spent(&mut self) -> bool {
         self.steps >= self.job.effort.all_steps || self.clock.is_up()
@@ -147,7 +154,7 @@ impl Verifier<'_, '_> {
         searched: &Searched,
         on_target: bool,
     ) -> Option<(Way, usize, f64)> {
-        let ways = if on_target { self.target_coverage.left() } else { self.coverage.left() };
+        let ways = if on_target { self.target_coverage.left() } else { self.left() };
         let from = |way: &Way| searched.get(way).map_or(&[][..], Vec::as_slice);
         let mut ways: Vec<Way> = ways.into_iter().filter(|way| from(way).len() < SEARCHES).collect();
         ways.sort_by_key(|way| from(way).len());
@@ -207,7 +214,10 @@ impl Verifier<'_, '_> {
         self.tried += 1;
         self.steps += run.steps;
         // What is not held against the conversion counts only where both sides do the same.
-        let new = if self.is_unusual { self.coverage.has_new(&run) } else { self.coverage.add(&run) };
+        let new = match self.is_unusual {
+            true => self.coverage.has_new(&run),
+            false => self.coverage.add(&run) || self.makes_sound(&run),
+        };
         let (near, went) = if on_target {
             let other = self.job.target.run(there, &self.circumstances(&circumstances.scenario, &run));
             self.steps += other.steps;
@@ -226,6 +236,8 @@ impl Verifier<'_, '_> {
             self.tell(&scenario, &run, new || new_there);
         }
         match went {
+            // Another alarm of the control shows nothing.
+            true if !on_target && self.left().contains(&way) => (Attempt::Near(None), new),
             true => (Attempt::Reached, new),
             false => (Attempt::Near(near.filter(|_| !is_cut(&run))), new),
         }

@@ -44,7 +44,8 @@ impl Verifier<'_, '_> {
                 continue;
             }
             let order = inputs_of(inputs, &nearest.reached, &nearest.start.scenario);
-            let order = self.in_order(order, self.place_of(at), &nearest.start.scenario);
+            let order =
+                self.in_order(order, self.place_of(at).map(|place| (place, false)), &nearest.start.scenario);
             let mut attempt = |circumstances: &Circumstances| {
                 left = left.saturating_sub(1);
                 if left == 0 {

@@ -7,6 +7,7 @@ use crate::verify::certificate::{OpenFact, Outcome, ProgramCertificate, Reason, 
 use crate::verify::explore::{Coverage, NotReached, by_own_numbers, compare_alarms};
 use crate::verify::sides::Job;
 use crate::verify::triage::through;
+use std::collections::BTreeSet;
 
 /// Ways not gone that a reason names.
 const NAMED: usize = 3;
@@ -31,6 +32,10 @@ impl Verifier<'_, '_> {
         let open_facts: Vec<OpenFact> = self.unconfirmed.values().flatten().cloned().collect();
         for open in &open_facts {
             self.because(Why::Unconfirmed, &open.text);
+        }
+        let is_sound = self.is_sound();
+        for text in self.source_stops.clone().iter().filter(|_| !is_sound) {
+            self.because(Why::SourceAlarms, text);
         }
         if self.is_stopped_alone() {
             self.reasons.remove(&Why::SourceAlarms);
@@ -85,6 +90,7 @@ impl Verifier<'_, '_> {
             target_branches_total,
             target_not_reached,
             by_text,
+            source_stops: if is_sound { self.source_stops.into_iter().collect() } else { Vec::new() },
             by_own_numbers: self.coverage.aside(self.job.source),
             target_by_own_numbers: self.target_coverage.aside(self.job.target),
             edits: self.edits,
@@ -111,9 +117,9 @@ impl Verifier<'_, '_> {
         let run = self.run_source(&scenario);
         let other = self.job.target.run(there, &self.circumstances(&scenario, &run));
         let own = by_own_numbers(self.job.source, self.program, &run);
-        self.coverage.set_aside(self.program.file, &own);
+        self.coverage.set_aside(self.program.file, &own, &self.apart);
         let own = by_own_numbers(self.job.target, there, &other);
-        self.target_coverage.set_aside(there.file, &own);
+        self.target_coverage.set_aside(there.file, &own, &BTreeSet::new());
     }
 
     /// True if nothing is open but that the source's control stops a program which is run by itself, as a peck cycle whose

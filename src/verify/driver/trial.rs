@@ -25,6 +25,16 @@ impl Verifier<'_, '_> {
         }
     }
 
+    /// True for a run that may show what the source does where so far its control stopped each run that went there.
+    pub(super) fn makes_sound(&self, run: &Run) -> bool {
+        !self.source_stops.is_empty() && !is_stopped(run) && !is_cut(run) && self.sound.has_new(run)
+    }
+
+    /// True if no run was stopped by the source's control, or if for each way that one went another went it to its own end.
+    pub(super) fn is_sound(&self) -> bool {
+        self.source_stops.is_empty() || self.compared > 0 && self.sound.lacks(&self.coverage).is_empty()
+    }
+
     /// Takes in the ways of a pair that did the same.
     pub(super) fn went_alike(&mut self, pair: &Pair<'_>) {
         let new = self.coverage.add(pair.run);
@@ -90,10 +100,14 @@ impl Verifier<'_, '_> {
         if ended {
             self.calls.add(run);
         }
+        if ended && difference.is_none() && !is_stopped(run) {
+            self.sound.add(run);
+        }
         let upto = difference.as_ref().map(|difference| difference.target);
         if let Some(difference) = &difference {
             let pair = Pair { scenario, run, there, circumstances: &circumstances, other: &other };
             match self.weigh(&pair, difference, excuse) {
+                Some((Why::SourceAlarms, text)) if is_stopped(run) => _ = self.source_stops.insert(text),
                 Some((why, text)) => {
                     if why == Why::Unconfirmed {
                         self.unconfirmed.insert(ROUNDS.into(), Vec::new());
@@ -108,4 +122,9 @@ impl Verifier<'_, '_> {
         }
         new_there
     }
+}
+
+/// True for a run that the source's control stopped.
+fn is_stopped(run: &Run) -> bool {
+    matches!(&run.end, End::Alarm { stop, .. } if stop.is_of_control())
 }

@@ -1,5 +1,6 @@
 //! One program while it is verified: what was found of it so far.
 
+use super::steered::Way;
 use super::stuck::Calls;
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::verify::certificate::{Edit, OpenFact, Why, Witness};
@@ -42,6 +43,10 @@ pub(super) struct Verifier<'v, 'j> {
     /// What is in force at the start on the target, where that is not the same as on the source.
     pub(super) target_given: Option<EntryState>,
     pub(super) coverage: Coverage,
+    /// Where runs went that the source's control did not stop, and in which both sides did the same.
+    pub(super) sound: Coverage,
+    /// The alarms by which the source's control stopped a run where the target went on.
+    pub(super) source_stops: BTreeSet<String>,
     /// The branches of the conversion, those of programs that the source has not among them.
     pub(super) target_coverage: Coverage,
     /// What is in registers that the target alone has, in the scenario at hand.
@@ -57,6 +62,8 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) steps: u64,
     /// Constants that were edited on both sides to go a way that they decide.
     pub(super) edits: Vec<Edit>,
+    /// Ways that edited texts went and did not do the same after.
+    pub(super) apart: BTreeSet<Way>,
     /// What came to no end on both sides, the same as far as it went.
     pub(super) endless: BTreeSet<String>,
     /// The first alarm by which the control itself stopped a run of the source.
@@ -99,6 +106,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
             called,
             given: given.flatten().unwrap_or_default(),
             target_given: None,
+            sound: Coverage::new(job.source, &[program], false),
+            source_stops: BTreeSet::new(),
             coverage: Coverage::new(job.source, &[program], false),
             target_coverage: Coverage::new(job.target, &of_target(job, program), true),
             theirs: BTreeMap::new(),
@@ -111,6 +120,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             tried: 0,
             steps: 0,
             edits: Vec::new(),
+            apart: BTreeSet::new(),
             endless: BTreeSet::new(),
             stopped: None,
             cut_short: (0, None),

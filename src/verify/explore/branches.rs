@@ -79,6 +79,16 @@ impl Coverage {
         self.add_moved(run, &|_, span| span)
     }
 
+    /// The ways that were gone there and not here.
+    pub fn lacks(&self, other: &Self) -> Vec<(Place, i64)> {
+        let of = |(place, (_, gone)): (&Place, &(bool, BTreeSet<i64>))| {
+            let own = self.branches.get(place).map(|(_, own)| own);
+            let lacks = gone.iter().filter(|way| !own.is_some_and(|own| own.contains(way)));
+            lacks.map(|way| (*place, *way)).collect::<Vec<_>>()
+        };
+        other.branches.iter().flat_map(of).collect()
+    }
+
     /// True for a run that goes somewhere new.
     pub fn has_new(&self, run: &Run) -> bool {
         run.branches.iter().any(|(branch, ways)| {
@@ -174,9 +184,10 @@ impl Coverage {
         self.read.insert((place, way));
     }
 
-    /// Sets the ways aside that branches have left which the program's own numbers decide: those at these places.
-    pub fn set_aside(&mut self, file: usize, own: &BTreeSet<Span>) {
-        let left = self.left().into_iter();
+    /// Sets the ways aside that branches have left which the program's own numbers decide: those at these places, but for
+    /// some.
+    pub fn set_aside(&mut self, file: usize, own: &BTreeSet<Span>, but: &BTreeSet<(Place, i64)>) {
+        let left = self.left().into_iter().filter(|way| !but.contains(way));
         let ours = left.filter(|((of, span), _)| *of == file && own.contains(span));
         self.own = ours.collect();
     }

@@ -112,3 +112,19 @@ fn the_last_of_many_constants_is_edited_too() {
     let found = run("fanuc", &with(SOURCE), "haas", &with(&target("X2.5")), &[]);
     assert!(!has(&found, Why::NotReached) && !has(&found, Why::Edited), "{found:#?}");
 }
+
+/// A pocket whose step is left over only for some sizes, and only if its first literal says that it is one.
+const SOLVED: &str = "O1\n#1=1\n#2=2.5\n#3=.5\nG20G90G17\nG0X0Y0\nIF[#1EQ1]GOTO10\n#4=#2-FIX[#2/#3]*#3\nIF[#4LT.05]THEN#4=#4+#3\n\
+                      IF[#2GT[#3*9+7.123]]GOTO20\nG1X#4F10.\nGOTO10\nN20 G1 Y1. F10.\nN10 M30\n";
+
+#[test]
+fn literals_are_solved_for_together() {
+    let found = run("fanuc", SOLVED, "fanuc", SOLVED, &[]);
+    assert_eq!((&found.not_reached, &found.by_own_numbers), (&vec![], &vec![]), "{found:#?}");
+    assert_eq!(found.outcome, Outcome::Same, "{found:#?}");
+    // Two at once: their edits have one number.
+    let two = found.edits.windows(2).any(|two| two[0].together == two[1].together);
+    assert!(two, "{:?}", found.edits);
+    let found = run("fanuc", SOLVED, "fanuc", &SOLVED.replace("Y1.", "Y1.1"), &[]);
+    assert!(has(&found, Why::Edited) && found.outcome == Outcome::Undecided, "{found:#?}");
+}

@@ -162,3 +162,45 @@ fn a_search_goes_on_where_something_may() {
     let found = within("fanuc", program, program);
     assert_eq!((found.branches_covered, found.branches_total), (2, 2), "{found:#?}");
 }
+
+/// The ways that only other numbers in the text of a main program would go.
+fn own(blocks: &str) -> Vec<String> {
+    let text = format!("O1\nG20G90G17G40G80\nG0X0Y0\nIF[#500GT3]GOTO3\nN3{blocks}\nN5M30\n");
+    let found = within("fanuc", &text, &text);
+    found.by_own_numbers.into_iter().map(|way| format!("{} {}", way.text, way.way)).collect()
+}
+
+#[test]
+fn a_way_that_only_other_numbers_would_go_is_set_aside() {
+    for (blocks, ways) in [
+        // A loop of fixed steps, whose last one never goes past its end.
+        (
+            "#100=0\nWHILE[#100LT2]DO1\n#100=#100+.5\nIF[#100GT2]THEN#100=2\nG1X#100F9.\nEND1",
+            "[#100GT2] true",
+        ),
+        // What comes from outside is passed by before and after.
+        (
+            "#100=3\nIF[#501GT2]GOTO5\n#101=#100*2\nG1X1.F9.\nIF[SIN[#101]EQ.1234]GOTO5\nY1.",
+            "[SIN[#101]EQ.1234] true",
+        ),
+    ] {
+        assert_eq!(own(blocks), [ways], "{blocks}");
+    }
+}
+
+#[test]
+fn what_may_come_from_outside_is_not_set_aside() {
+    for blocks in [
+        // The machine, the operator, a switch, a mode that the program does not set.
+        "#100=#5041*0+3\nIF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
+        "#100=3\n/#100=2\nIF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
+        "#100=3\n#3006=1(SET #100)\nIF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
+        "IF[#4005EQ95]GOTO5\nG1X1.F9.",
+        // A number that a run may pass by, or set again.
+        "#100=3\nIF[#501GT2]GOTO4\n#100=2\nN4IF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
+        "#100=3\nIF[#501GT2]THEN#100=2\nIF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
+        "#100=0\nN4#100=#100+1\nIF[SIN[#100]EQ.1234]GOTO5\nIF[#501LT[#100-900]]GOTO4\nG1X1.F9.",
+    ] {
+        assert_eq!(own(blocks), [""; 0], "{blocks}");
+    }
+}

@@ -39,6 +39,10 @@ pub enum Input {
     Length(u32),
     /// The radius of a tool.
     Radius(u32),
+    /// The wear of a tool's length.
+    LengthWear(u32),
+    /// The wear of a tool's radius.
+    RadiusWear(u32),
     /// How far a probe move gets, by place.
     Probe(usize),
     /// Where the machine stands at the start: the axis from 0.
@@ -83,6 +87,12 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
     ];
     let machine = machine.into_iter().filter(|(_, is_read)| *is_read).map(|(input, _)| input);
     let cells = inputs.cells.keys().filter_map(|(state, subscripts)| Input::of_cell(*state, subscripts));
+    // Tools are not worn where the target keeps no wear apart.
+    let cells = cells.filter(|input| match input {
+        Input::LengthWear(_) => !inputs.unworn_lengths,
+        Input::RadiusWear(_) => !inputs.unworn,
+        _ => true,
+    });
     let state = (0..scenario.state.len()).map(Input::State);
     let answers = (0..if inputs.asks { FIRST.min(scenario.answers.len()) } else { 0 }).map(Input::Answer);
     let probes = (0..PROBES).map(Input::Probe);
@@ -118,10 +128,14 @@ impl Input {
     pub fn of_cell(state: Sys, subscripts: &[u32]) -> Option<Self> {
         match (state, subscripts) {
             (Sys::WorkOffset, [number, axis]) => Some(Self::Work(*number, (*axis as usize).checked_sub(1)?)),
-            (Sys::LengthGeometry | Sys::ToolOffset | Sys::LengthWear, [number]) => {
-                Some(Self::Length(*number))
+            (Sys::LengthGeometry | Sys::ToolOffset, [number]) => Some(Self::Length(*number)),
+            (Sys::LengthWear, [number]) => Some(Self::LengthWear(*number)),
+            (Sys::RadiusGeometry | Sys::DiameterGeometry | Sys::DiameterOrRadius, [number]) => {
+                Some(Self::Radius(*number))
             }
-            (Sys::RadiusGeometry | Sys::RadiusWear, [number]) => Some(Self::Radius(*number)),
+            (Sys::RadiusWear | Sys::DiameterWear | Sys::DiameterOrRadiusWear, [number]) => {
+                Some(Self::RadiusWear(*number))
+            }
             _ => None,
         }
     }
@@ -146,6 +160,8 @@ impl Input {
             }
             Input::Length(number) => scenario.tools.get(number).map(|tool| tool.length),
             Input::Radius(number) => scenario.tools.get(number).map(|tool| tool.radius),
+            Input::LengthWear(number) => scenario.tools.get(number).map(|tool| tool.length_wear),
+            Input::RadiusWear(number) => scenario.tools.get(number).map(|tool| tool.radius_wear),
             Input::Probe(at) => match scenario.probes.get(*at) {
                 Some(Probe::Part(part)) => Some(*part),
                 _ => Some(1.0),
@@ -182,6 +198,8 @@ impl Input {
             }
             Input::Length(number) => scenario.tools.entry(*number).or_default().length = value,
             Input::Radius(number) => scenario.tools.entry(*number).or_default().radius = value.abs(),
+            Input::LengthWear(number) => scenario.tools.entry(*number).or_default().length_wear = value,
+            Input::RadiusWear(number) => scenario.tools.entry(*number).or_default().radius_wear = value,
             Input::Probe(at) => {
                 // After the last one all miss.
                 scenario.probes.resize((at + 1).max(scenario.probes.len()), Probe::Miss);
