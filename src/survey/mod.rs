@@ -12,6 +12,7 @@ mod filled;
 mod json;
 mod kept;
 mod keys;
+mod machine;
 mod programs;
 mod shape;
 mod signals;
