@@ -10,7 +10,7 @@ mod numbers;
 pub use domain::Domain;
 pub use numbers::{Numbers, Subscripts};
 
-use crate::canon::{Func, Op};
+use crate::canon::{CycleSetting, Func, Op};
 use crate::text::Span;
 use std::sync::Arc;
 
@@ -77,6 +77,8 @@ pub enum Predicate {
     Setting(Arc<str>, f64),
     /// The same once it is set to another unit than its profile gives ([`Self::SetTo`]), in that unit.
     TurnedSetting(Arc<str>, f64),
+    /// Cycles that are kept take this from a setting of the target, whatever it says: a person accepts that.
+    OfMachine(CycleSetting),
     /// The speeds that these blocks compute are whole numbers above 0.
     WholeSpeeds(Vec<Span>),
     /// The arcs of these blocks pass at most half a turn.
@@ -128,6 +130,7 @@ impl Predicate {
             Self::Loaded(_) => "tool",
             Self::Holds(..) => "variable",
             Self::Setting(..) | Self::TurnedSetting(..) => "setting",
+            Self::OfMachine(_) => "cycle_setting",
             Self::WholeSpeeds(_) => "speeds",
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
@@ -163,7 +166,7 @@ impl Predicate {
 
     /// True for what no run can keep or break.
     pub fn is_accepted(&self) -> bool {
-        matches!(self, Self::Substitute(_) | Self::Unseen)
+        matches!(self, Self::Substitute(_) | Self::Unseen | Self::OfMachine(_))
     }
 
     /// Numbers worth a try: the ends of what is assumed to be safe, its inside, and what lies just outside. Of the
@@ -187,7 +190,7 @@ impl Predicate {
             | Self::Pecks(_)
             | Self::Levels(..) => Vec::new(),
             Self::ShortArcs(_) | Self::ArcEnds(_) | Self::WholeSpeeds(_) => Vec::new(),
-            Self::Tools(_) | Self::Substitute(_) | Self::Unseen => Vec::new(),
+            Self::Tools(_) | Self::Substitute(_) | Self::Unseen | Self::OfMachine(_) => Vec::new(),
         }
     }
 }

@@ -9,6 +9,7 @@
 
 mod acts;
 mod auxiliary;
+mod cycle_setting;
 mod function;
 mod group;
 mod kinds;
@@ -20,6 +21,7 @@ mod state;
 
 pub use acts::Act;
 pub use auxiliary::Auxiliary;
+pub use cycle_setting::CycleSetting;
 pub use function::Func;
 pub use group::Group;
 pub use operation::Op;

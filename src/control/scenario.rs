@@ -2,9 +2,9 @@
 
 use super::entry::Entry;
 use super::table::Table;
-use crate::canon::{Group, Op, Sys};
+use crate::canon::{CycleSetting, Group, Op, Sys};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How many axes a position has: X Y Z A B C U V W E.
 pub const AXES: usize = 10;
@@ -57,6 +57,9 @@ pub struct Scenario {
     /// Settings of the control that are another than its profile says, by name: lengths in the unit of the control.
     #[serde(skip)]
     pub settings: BTreeMap<String, f64>,
+    /// What cycles are left to take from settings of their machines, on both sides: it counts alike there.
+    #[serde(skip)]
+    pub left: BTreeSet<CycleSetting>,
     /// The unit that a control is set to which takes a code for the other one for a fault, true for inches; none for that of its profile.
     #[serde(skip)]
     pub set_to_inch: Option<bool>,
@@ -166,6 +169,7 @@ impl Default for Scenario {
         Self {
             variables: BTreeMap::new(),
             settings: BTreeMap::new(),
+            left: BTreeSet::new(),
             set_to_inch: None,
             outside: 0,
             outside_modes: false,

@@ -82,6 +82,7 @@ impl Question {
                 | Self::TapDwell
                 | Self::WorkPlaces
                 | Self::TapPeck
+                | Self::CycleSettings
         )
     }
 
@@ -262,6 +263,7 @@ questions! {
     PowerOffValues "power.off.values" OneOf(&["used", "unused", "unknown"]), "whether programs for this machine use what variables held when it was last switched off, or how vacant they are after power-on", if "said";
     TapDwell "tap.dwell" OneOf(&["none", "waits"]), "the wait at the bottom that programs tell a tap of this mill: it waits, or the threads need none", if "said";
     TapPeck "tap.peck" OneOf(&["one.go"]), "how a rigid tap that programs tell pecks goes to its depth on the target: in one go", if "said";
+    CycleSettings "cycle.settings" OneOf(&["machine"]), "where the cycles of this lathe take what programs cannot tell them: from settings of the machine, which are right for all of them", if "said";
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
     TurretNone "turret.offset.none" OneOf(&["all", "wear", "unknown"]), "what offset 00 of a lathe's T word takes away: all of the tool's offset, or its wear alone, so that the geometry stays", if "role:tool.turret";

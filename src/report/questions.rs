@@ -272,7 +272,8 @@ fn danger(finding: &Diagnostic) -> usize {
                 | Predicate::Holds(..)
                 | Predicate::Tools(_)
                 | Predicate::Setting(..)
-                | Predicate::TurnedSetting(..),
+                | Predicate::TurnedSetting(..)
+                | Predicate::OfMachine(_),
             ),
             _,
         ) => 1,

@@ -6,12 +6,14 @@ mod as_called;
 mod assumed;
 mod callers;
 mod codes;
+mod cycle_settings;
 mod edited;
 mod ends;
 mod links;
 mod names;
 mod nesting;
 mod outside;
+mod pairs;
 mod random;
 mod running;
 mod said;
@@ -24,9 +26,10 @@ mod waiting;
 
 use super::{Assumptions, Effort, Job, Outcome, ProgramCertificate, Side, Spent, SymbolMap, Why, verify};
 use crate::assume::Assumption;
-use crate::control::{LoadedFile, ProgramRef};
+use crate::control::LoadedFile;
 use crate::dialect::{Control, registry};
 use crate::syntax::parse_file;
+use pairs::between;
 
 /// Verifies a pair of single programs, registers by their own names or by `variables`.
 fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32)]) -> ProgramCertificate {
@@ -58,19 +61,7 @@ fn supposing(
     supposed: &[(usize, Assumption)],
 ) -> Vec<ProgramCertificate> {
     let controls = [from, to].map(|name| Control::plain(name).unwrap());
-    let execute = [from, to].map(|name| registry::find(name).unwrap().execute.unwrap());
-    let parsed = [(source, &controls[0]), (target, &controls[1])]
-        .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
-    // As subprograms are named where the file's name says what they are.
-    let ours = [LoadedFile { name: "cycle1.nc", parsed: &parsed[0] }];
-    let theirs = [LoadedFile { name: "cycle2.nc", parsed: &parsed[1] }];
-    let source = Side::new(&controls[0], execute[0], &ours);
-    let target = Side::new(&controls[1], execute[1], &theirs);
-    let mut assumptions = Assumptions::new();
-    for (program, assumption) in supposed.iter().cloned() {
-        assumptions.entry(ProgramRef { file: 0, program }).or_default().push(assumption);
-    }
-    verified([&source, &target], &names, &assumptions)
+    between(&controls, [source, target], &names, supposed)
 }
 
 /// What is found of two sides, with the usual effort.

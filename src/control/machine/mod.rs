@@ -202,8 +202,9 @@ impl Machine {
             given_acts: HashMap::new(),
             awaited: awaited::Awaited::of(scenario),
         };
-        if !scenario.settings.is_empty() || scenario.set_to_inch.is_some() {
+        if !scenario.settings.is_empty() || !scenario.left.is_empty() || scenario.set_to_inch.is_some() {
             let turning = lathe::settings::Turning::with(control, &scenario.settings, scenario.set_to_inch);
+            let turning = lathe::Turning { left: scenario.left.clone(), ..turning };
             let mut rules = Rules::clone(&machine.rules);
             rules.turning = turning;
             machine.rules = Arc::new(rules);

@@ -1,9 +1,10 @@
 //! What a cycle of a lathe takes besides its own words: where the source gives each value, and where the target takes it from.
 
+use super::left_settings::{Left, leaves_allowance, left_of, runs_out_otherwise};
 use super::settings::{Kind, row, row_for, setting, stand_in, takes};
 use super::thread_form;
 use crate::assume::Predicate;
-use crate::canon::Role;
+use crate::canon::{CycleSetting, Role};
 use crate::dialect::{Control, Setting};
 use crate::ir::{Expr, Module, Nc, NcItem, Stmt};
 use std::sync::Arc;
@@ -24,6 +25,16 @@ pub(super) struct Given {
     pub angle: f64,
     /// Settings that the target must have.
     pub needs: Vec<Need>,
+    /// What settings of the target say, whatever that is.
+    pub left: Vec<Left>,
+}
+
+/// What of a cycle a setting of the target says.
+enum Taken {
+    Need(Need),
+    Left(Left),
+    /// That it is there at all, and how much it is.
+    Both(Need, Left),
 }
 
 /// A setting that the target must have: what, what to do, and as a value.
@@ -116,7 +127,7 @@ pub(super) fn resolve(
 ) -> Result<Given, (String, String)> {
     let counts_finishes = takes(target, kind.setup, Role::ThreadForm)
         || setting(target, kind.cycle, Role::ThreadFinishes).is_some();
-    let finishes = if counts_finishes { 0 } else { more_finishes(&mut values) };
+    let finishes = if counts_finishes { 0 } else { more_finishes(&mut values, target) };
     let angle = constant(&values, Role::ThreadAngle).unwrap_or(0.0);
     if takes(target, kind.cycle, Role::ThreadInfeed)
         && values.iter().all(|(role, _)| *role != Role::ThreadInfeed)
@@ -128,14 +139,26 @@ pub(super) fn resolve(
         let what = "the run-out or the angle of this thread has more digits than the target takes";
         return Err((what.into(), "the target takes tenths of a lead, and whole degrees".into()));
     }
-    let (words, setup, needs) = place(values, kind, target)?;
-    Ok(Given { words, setup, finishes, angle, needs })
+    let (words, setup, taken) = place(values, kind, target)?;
+    let (mut needs, mut left) = (Vec::new(), Vec::new());
+    for taken in taken {
+        match taken {
+            Taken::Need(need) => needs.push(need),
+            Taken::Left(one) => left.push(one),
+            Taken::Both(need, one) => {
+                needs.push(need);
+                left.push(one);
+            }
+        }
+    }
+    Ok(Given { words, setup, finishes, angle, needs, left })
 }
 
 /// Finishing passes beyond the one that takes off what was left; they are no word of the cycle any more.
-fn more_finishes(values: &mut Values) -> usize {
+fn more_finishes(values: &mut Values, target: &Control) -> usize {
     let Some(all) = constant(values, Role::ThreadFinishes).filter(|all| *all >= 1.0) else { return 0 };
-    let left = constant(values, Role::ThreadAllowance).is_some_and(|left| left > 0.0);
+    let left = constant(values, Role::ThreadAllowance);
+    let left = left.is_some_and(|left| left > 0.0) || leaves_allowance(left, target);
     values.retain(|(role, _)| *role != Role::ThreadFinishes);
     if left {
         values.push((Role::ThreadFinishes, Expr::Number(1.0)));
@@ -263,10 +286,10 @@ fn place(
     values: Values,
     kind: &'static Kind,
     target: &Control,
-) -> Result<(Values, Values, Vec<Need>), (String, String)> {
+) -> Result<(Values, Values, Vec<Taken>), (String, String)> {
     let (words, others): (Values, Values) =
         values.iter().cloned().partition(|(role, _)| takes(target, kind.cycle, *role));
-    let needs: Result<Vec<Option<Need>>, _> =
+    let needs: Result<Vec<Option<Taken>>, _> =
         others.iter().map(|(role, value)| in_setting(*role, value, kind, target)).collect();
     if let Ok(needs) = &needs
         && needs.iter().all(Option::is_none)
@@ -291,7 +314,7 @@ fn in_setting(
     value: &Expr,
     kind: &Kind,
     target: &Control,
-) -> Result<Option<Need>, (String, String)> {
+) -> Result<Option<Taken>, (String, String)> {
     let by = setting(target, kind.cycle, role);
     if role == Role::ThreadFinishes && by.is_none() {
         let none = "this thread has 0 finishing passes by the first two digits of its P, and no source says what that is: 1 to 99 are read";
@@ -306,16 +329,23 @@ fn in_setting(
         return Err((format!("the target has no word for {} here", meaning(role)), String::new()));
     };
     let whole = target.setting_row(name).map_or(1.0, Setting::whole);
+    // As the machine has it: 10 tenths for a length of one lead.
+    let as_set = |value: f64| (value * whole * 1e6).round() / 1e6;
+    let is = (kind.cycle, role);
+    let left = left_of(is, value.constant(), stated, target);
     let (kind, number) = setting_named(name);
-    let Some(value) = value.constant() else {
+    let value = match (value.constant(), left) {
+        (Some(value), _) if stated.is_some_and(|stated| (value - stated).abs() < 1e-9) => return Ok(None),
+        (value, Some(what)) => {
+            let value = value.map(as_set);
+            return Ok(Some(Taken::Left(Left { what, name: Some(name.into()), value, unit: None })));
+        }
+        (value, None) => value,
+    };
+    let Some(value) = value else {
         let what = format!("{} is computed, and the target takes it from {kind} {number}", meaning(role));
         return Err((what, "write it as a number".into()));
     };
-    if stated.is_some_and(|stated| (value - stated).abs() < 1e-9) {
-        return Ok(None);
-    }
-    // As the machine has it: 10 tenths for a length of one lead.
-    let as_set = |value: f64| (value * whole * 1e6).round() / 1e6;
     let (value, stated) = (as_set(value), stated.map(as_set));
     let now =
         stated.map_or("its profile does not give it".into(), |stated| format!("its profile says {stated}"));
@@ -327,5 +357,11 @@ fn in_setting(
     let help = format!(
         "set it so before the program is run; if the machine is always set so, write in its profile, under [{kind}s]: {number} = \"{value}\""
     );
-    Ok(Some((what, help, Predicate::Setting(name.into(), value))))
+    let need = (what, help, Predicate::Setting(name.into(), value));
+    if stated.is_some() && runs_out_otherwise(is, value, target) {
+        let what = CycleSetting::ThreadRunOut;
+        let left = Left { what, name: Some(name.into()), value: Some(value), unit: None };
+        return Ok(Some(Taken::Both(need, left)));
+    }
+    Ok(Some(Taken::Need(need)))
 }

@@ -6,11 +6,13 @@
 //! otherwise.
 
 mod forms;
+mod kept;
 mod starts;
 mod written;
 
 use super::contours::facts_uncompensated;
 use super::cycle_values::{Given, Untold, Values, Written, replace, resolve, told, values_of};
+use super::left_settings::leaves;
 use super::place::Place;
 use super::roughing::{ALLOWANCES, ALLOWANCES_HELP, drop_rough};
 use super::setting_values::{Found, Instead, So, tell};
@@ -28,7 +30,6 @@ use crate::legalize::moves::turned_units::{Turned, may_be_other};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use starts::{Starts, vacant};
-use written::runs_out;
 
 /// True if there are such cycles, and the target takes the values from elsewhere than the source, or from a setting that is another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -113,6 +114,7 @@ fn each(
         set: Vec::new(),
         place: Place::default(),
         starts: Starts::default(),
+        in_pass: true,
         vacant: false,
         set_vacant: false,
         found,
@@ -193,6 +195,8 @@ struct Run<'c> {
     set: Vec<Set>,
     place: Place,
     starts: Starts,
+    /// True where a single pass may be in force, which a block without an axis may make once more.
+    in_pass: bool,
     /// True where a word of the block at hand may have no value.
     vacant: bool,
     /// True where a word of a block that sets what cycles take may have none.
@@ -216,6 +220,7 @@ impl Run<'_> {
         while let Some(stmt) = old.next() {
             let rapid = [(Group::Motion, Op::Rapid), (Group::Cycle, Op::CycleOff)];
             let rapid = rapid.iter().all(|(group, op)| state.op(*group) == Some(*op));
+            self.in_pass = state.op(Group::Motion).is_none_or(Op::is_pass);
             state.step(&stmt);
             self.vacant = vacant.next().unwrap_or(false);
             self.starts.step(&stmt, self.vacant, &mut self.place);
@@ -301,7 +306,7 @@ impl Run<'_> {
             return vec![stmt];
         }
         let before = set.map(|set| set.values.clone());
-        let (all, stood_in) = match told(&stmt, kind, before, (self.source, self.written)) {
+        let (mut all, stood_in) = match told(&stmt, kind, before, (self.source, self.written)) {
             Ok(told) => told,
             Err(Untold(what, help, lacks)) => {
                 self.found.push((span, what, help, lacks.map_or(So::Refused, So::Lacks)));
@@ -313,10 +318,14 @@ impl Run<'_> {
             self.refuse(span, &what, &help);
             return vec![stmt];
         }
-        let given = match threads.and_then(|nc| beyond(nc, &all, self.target)) {
+        if threads.is_some() {
+            self.finish_once(span, &mut all);
+        }
+        let mut given = match threads.and_then(|nc| beyond(nc, &all, self.target)) {
             Some((what, help)) => Err((what.into(), help.into())),
             None => resolve(all.clone(), kind, self.target),
         };
+        let straight = given.as_mut().is_ok_and(|given| self.ends_straight(&mut given.needs));
         let writes = matches!(kind.cycle, Op::Threading | Op::Groove | Op::FaceGroove);
         let needs = given.as_ref().ok().filter(|_| writes).map(|given| given.needs.as_slice());
         let needs = needs.unwrap_or_default();
@@ -325,7 +334,9 @@ impl Run<'_> {
         let may_write = if stood_in && self.other_unit.contains(&true) { Err(OTHER_UNIT) } else { may };
         let finishing = given.as_ref().ok().map(|given| self.finishing(&stmt, given, &all, may));
         // A thread whose finishing passes cannot follow its cycle may be a loop of all its passes.
-        let beyond = finishing.as_ref().map_or(writes, |passes| passes.is_none() && may_write.is_ok());
+        let leaves = leaves(self.target);
+        let beyond =
+            finishing.as_ref().map_or(writes, |passes| passes.is_none() && may_write.is_ok() && !leaves);
         if beyond || !elsewhere.is_empty() {
             match may_write.and_then(|()| self.written_out((&stmt, at), &all, kind)) {
                 Ok(passes) => {
@@ -336,7 +347,7 @@ impl Run<'_> {
                 Err(because) => why = format!("; its moves are not written out: {because}"),
             }
         }
-        let Given { words, setup, needs, .. } = match given {
+        let Given { words, setup, needs, left, .. } = match given {
             Ok(given) => given,
             Err((what, help)) => {
                 self.refuse(span, &format!("{what}{why}"), &help);
@@ -354,11 +365,10 @@ impl Run<'_> {
             let (what, help, so) = self.supposed(need, &why);
             self.found.push((span, what, help, so));
         }
+        self.leave(&stmt, kind, left);
         let passes = finishing.flatten();
         if passes.is_none() {
-            let (what, help) =
-                if runs_out(&all) { (RUNS_OUT, RUNS_OUT_HELP) } else { (FINISHES, FINISHES_HELP) };
-            self.refuse(span, what, help);
+            self.no_finishes(span, &all);
         }
         if let StmtKind::Nc(nc) = &mut stmt.kind {
             let same = drop_rough(nc, self.target);
@@ -370,7 +380,8 @@ impl Run<'_> {
         }
         let site = crate::ir::SourceInfo { span, ..Default::default() };
         let setup = (!setup.is_empty()).then(|| Stmt { kind: StmtKind::Nc(block_before(kind, setup)), site });
-        setup.into_iter().chain([stmt]).chain(passes.unwrap_or_default()).collect()
+        let cycle = if straight { kept::straight(stmt) } else { vec![stmt] };
+        setup.into_iter().chain(cycle).chain(passes.unwrap_or_default()).collect()
     }
 
     fn refuse(&mut self, span: Span, what: &str, help: &str) {
@@ -378,14 +389,6 @@ impl Run<'_> {
     }
 }
 
-const RUNS_OUT: &str = "the target finishes a thread in one pass, and this one has more and runs out: the others are not written as single passes, as \
-                        where the cycle begins, or a number of it, is not known here, or the target's single passes do not run out as its cycle does";
-const RUNS_OUT_HELP: &str = "write X and Z of the start as numbers right before the thread, and a G code in the next block that moves; or give the thread one \
-                             finishing pass and an allowance for it, or no run-out";
-const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \
-                        where the cycle begins, or a number of it, is not known here";
-const FINISHES_HELP: &str = "write X and Z of the start as numbers right before the thread, and a G code in the next block that moves; or give the \
-                             thread one finishing pass and an allowance for it";
 const OTHER_UNIT: &str = "a length of this cycle is in a setting, in the unit of the control, and the program names the other unit";
 const STALE: &str = "a value that this cycle takes from a block before it is computed, and what it is computed from may have changed since";
 const SKIPPED: &str =

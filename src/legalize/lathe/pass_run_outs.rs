@@ -6,6 +6,8 @@
 //! look, once for the library. Of two controls without such a setting both have the parameter of their maker.
 //! Counter-example: a first block of a thread of many passes, which changes the parameter on a control that has both.
 
+use super::left_settings::{Left, left_of};
+use super::setting_values::{So, tell};
 use super::settings::{setting, stand_in};
 use super::thread_form::apart;
 use crate::assume::Predicate;
@@ -65,7 +67,7 @@ fn is_changed(leads: f64, module: &Module) -> bool {
 fn settle(module: &mut Module, leads: f64, theirs: &By, context: &mut Context<'_>) -> bool {
     let codes = [Op::ThreadRunOutOff, Op::ThreadRunOutOn];
     let has = codes.iter().all(|op| context.target.code_for(*op, &BTreeMap::new()).is_some());
-    let mut changed = false;
+    let (mut changed, mut kept) = (false, Vec::new());
     let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
@@ -83,6 +85,13 @@ fn settle(module: &mut Module, leads: f64, theirs: &By, context: &mut Context<'_
         let Some((name, Some(there))) = theirs else { continue };
         let whole = context.target.setting_row(name).map_or(1.0, Setting::whole);
         let as_set = |value: f64| (value * whole * 1e6).round() / 1e6;
+        let is = (Op::ThreadingPass, Role::ThreadRunOut);
+        if let Some(what) = left_of(is, Some(leads), Some(*there), context.target) {
+            let (name, value) = (Some(name.as_str().into()), Some(as_set(leads)));
+            let left = So::Left(Left { what, name, value, unit: None });
+            kept.push((index, vec![(span, String::new(), String::new(), left)]));
+            continue;
+        }
         let (kind, number) = name.split_once('.').unwrap_or(("setting", name));
         let what = format!(
             "{kind} {number} of the {} must be {} while this program runs: its single passes of threads run out by that; its profile says {}",
@@ -98,6 +107,7 @@ fn settle(module: &mut Module, leads: f64, theirs: &By, context: &mut Context<'_
         let predicate = Predicate::Setting(name.as_str().into(), as_set(leads));
         context.add_once(index, &what, told.assuming(predicate));
     }
+    tell(kept, &[], module, context);
     changed
 }
 
@@ -164,6 +174,15 @@ fn groups((block, state): (&Block, &Modal)) -> Option<Vec<(usize, usize)>> {
     open.is_none().then_some(found)
 }
 
+/// The target's setting as the source's profile has it, which blocks may have changed since: a run that begins with the program finds it so.
+fn as_on_source(theirs: &By, context: &Context<'_>) -> Option<Predicate> {
+    let (_, leads) = stand_in(context.source, Op::Threading, Role::ThreadRunOut)?;
+    let (name, there) = theirs.as_ref()?;
+    let whole = context.target.setting_row(name).map_or(1.0, Setting::whole);
+    let leads = leads.filter(|leads| there.is_some_and(|there| (there - leads).abs() > 1e-9))?;
+    Some(Predicate::Setting(name.as_str().into(), (leads * whole * 1e6).round() / 1e6))
+}
+
 /// Says that one of the two is not known.
 fn ask(module: &Module, (ours, theirs): (&By, &By), context: &mut Context<'_>) {
     let of = |one: &By, control: &Control| {
@@ -200,6 +219,15 @@ fn ask(module: &Module, (ours, theirs): (&By, &By), context: &mut Context<'_>) {
             }
             if let Some(name) = open(theirs, context.target) {
                 finding = finding.lacking_there(name);
+            }
+            if !program
+                .blocks
+                .iter()
+                .flat_map(|block| &block.stmts)
+                .any(|stmt| stmt.kind.has_op(Op::Threading))
+                && let Some(as_there) = as_on_source(theirs, context)
+            {
+                finding = finding.assuming(as_there);
             }
             if let Some(help) = &help {
                 finding = finding.with_help(help.clone());

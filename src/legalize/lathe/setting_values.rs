@@ -5,6 +5,7 @@
 //! a groove that goes back by 0.5 and one that goes back by 1, in a program and one that it calls.
 
 use super::cycle_values::setting_named;
+use super::left_settings::{self, Left};
 use crate::assume::Predicate;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -32,6 +33,8 @@ pub(super) enum So {
     Open,
     /// The conversion supposes something.
     Supposed(Predicate),
+    /// The target's machine says it: told once for the library.
+    Left(Left),
 }
 
 /// Tells what was found in the programs of a library, each with its index; `calls` are its callers with what each calls.
@@ -43,6 +46,7 @@ pub(super) fn tell(
 ) {
     let runs = OnceCell::new();
     let mut values: BTreeMap<Arc<str>, Vec<(f64, usize)>> = BTreeMap::new();
+    let left = left_settings::told(&found, context.target);
     for (index, found) in found {
         for (span, mut what, mut help, mut so) in found {
             let stated = match &so {
@@ -67,7 +71,10 @@ pub(super) fn tell(
                 if !known.contains(&(*value, index)) {
                     known.push((*value, index));
                 }
-                if let Some((first, program)) = clash {
+                // How long threads run out is left, and the first value says that they do.
+                let is_left =
+                    *value > 0.0 && is_run_out(name, context.target) && left_settings::leaves(context.target);
+                if let Some((first, program)) = clash.filter(|(first, _)| !(is_left && *first > 0.0)) {
                     let is_own = program == index;
                     let is_one_run = || {
                         runs.get_or_init(|| Runs::of(module, calls, context.features.has(Feature::Chain)))
@@ -88,17 +95,32 @@ pub(super) fn tell(
                     }
                 }
             }
+            if let So::Left(one) = &so
+                && let Some((what, help)) = left.get(&one.what)
+            {
+                let told = Diagnostic::new(Code::Conditional, span, what.as_str()).with_help(help.clone());
+                let told = told.assuming(Predicate::OfMachine(one.what)).asked_once();
+                context.add_once(index, what, told);
+                continue;
+            }
             let code = match so {
-                So::Supposed(_) | So::Open => Code::Conditional,
+                So::Supposed(_) | So::Open | So::Left(_) => Code::Conditional,
                 So::Noted => Code::CycleWrittenOut,
                 So::Refused | So::Lacks(_) => Code::NoEquivalent,
             };
             let finding = Diagnostic::new(code, span, what.as_str());
             let finding = if help.is_empty() { finding } else { finding.with_help(help) };
+            let finding = match &so {
+                So::Noted => finding.lacking_there(MACHINE),
+                So::Supposed(predicate) if left_settings::may_be_left(predicate, context.target) => {
+                    finding.lacking_there(MACHINE)
+                }
+                _ => finding,
+            };
             match so {
                 So::Supposed(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
                 So::Lacks(setting) => context.add(index, finding.lacking(setting)),
-                So::Noted | So::Open => context.add_once(index, &what, finding),
+                So::Noted | So::Open | So::Left(_) => context.add_once(index, &what, finding),
                 So::Refused => context.add(index, finding),
             }
         }
@@ -150,6 +172,14 @@ fn is_way_back(name: &str, target: &Control) -> bool {
     })
 }
 
+/// The answer that lets a cycle stay with the settings of its machine.
+const MACHINE: &str = "behaviour.cycle.settings=machine";
+
+/// True for how long threads run out.
+fn is_run_out(name: &str, target: &Control) -> bool {
+    target.setting_row(name).is_some_and(|row| row.gives.or(row.otherwise) == Some(Role::ThreadRunOut))
+}
+
 /// What is said of another way back than the target's; `who` says that the target goes back so.
 fn another_way_back((name, value): (&str, f64), there: &str, who: &str) -> (String, String) {
     let (kind, number) = setting_named(name);
@@ -176,7 +206,8 @@ pub(super) fn written((name, value): (&str, f64), stated: Option<&str>, title: &
     );
     let help = match stated {
         Some(_) => format!(
-            "to keep the cycle, set it so on the machine, and write in its profile, under [{kind}s]: {number} = \"{value}\""
+            "to keep the cycle, set it so on the machine, and write in its profile, under [{kind}s]: {number} = \"{value}\"; or, if what the machine is set \
+             to is right for its cycles, under [behaviours]: \"cycle.settings\" = \"machine\""
         ),
         None => "to keep the cycle, give both cycles the same value".to_owned(),
     };

@@ -106,6 +106,7 @@ impl Verifier<'_, '_> {
         let mut scenario = Proposals::new(found, effort).next()?;
         scenario.inch = inch;
         self.given.start(&mut scenario);
+        self.supposed().of_machine(&mut scenario);
         Some(scenario)
     }
 

@@ -19,6 +19,7 @@ mod steered_conditions;
 mod steered_edits;
 mod stuck;
 mod summary;
+mod supposed;
 mod trial;
 mod twins;
 mod unit_check;

@@ -93,12 +93,14 @@ impl Verifier<'_, '_> {
         };
         let inch = unit(source, target).or(found.inch);
         let mut proposals = Proposals::new(&found, self.job.effort);
+        let supposed = self.supposed();
         type Best = ((bool, usize), Scenario, Run, BTreeMap<String, f64>);
         let mut best: Option<Best> = None;
         for _ in 0..TRIES {
             let Some(mut scenario) = proposals.next() else { break };
             scenario.inch = inch;
             self.given.start(&mut scenario);
+            supposed.of_machine(&mut scenario);
             let scenario = bounded(without_sizes(&scenario));
             let run = self.run_source(&scenario);
             let shows = (run.end == End::Ended, moves(&run));

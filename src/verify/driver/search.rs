@@ -2,8 +2,7 @@
 
 use super::settled::Settled;
 use super::verifier::Verifier;
-use crate::assume::{Assumption, Predicate};
-use crate::canon::{Op, Role, Sys};
+use crate::canon::{Role, Sys};
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::dialect::{Axis, Machine};
 use crate::verify::certificate::Why;
@@ -11,7 +10,6 @@ use crate::verify::compare::{is_cut, returns};
 use crate::verify::explore::{Circumstances, Proposals, inputs_of_both, unit};
 use crate::verify::sides::{Effort, Job, Side};
 use crate::verify::triage::telling_numbers;
-use std::collections::BTreeMap;
 
 /// How much longer the first run may be where it comes to no end, and how much shorter the others are while none does.
 const LONGER: u64 = 5;
@@ -50,15 +48,7 @@ impl Verifier<'_, '_> {
         let blocks = source.blocks(self.program).len() as u64;
         let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
         let inch = unit(source, target).or(found.inch);
-        let assumed = || self.job.assumptions.get(&self.program).into_iter().flatten();
-        let main = assumed().any(|one| one.predicate == Predicate::Main);
-        let loaded = assumed().rev().find_map(|one| match one.predicate {
-            Predicate::Loaded(tool) => Some(tool),
-            _ => None,
-        });
-        let held = self.held();
-        let (settings, set_to_inch) = (self.settings(), self.set_to_inch());
-        let as_stated = self.job.as_stated(self.program);
+        let supposed = self.supposed();
         let is_input = |(state, _): &(Sys, Vec<u32>)| matches!(state, Sys::Input | Sys::InputInverted);
         let reads_inputs = found.cells.keys().any(is_input);
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
@@ -72,14 +62,9 @@ impl Verifier<'_, '_> {
             }
             scenario.milliseconds = scenario.milliseconds.map(|most| most.min(self.clock.left()));
             scenario.inch = inch;
-            scenario.called &= !main;
-            scenario.tool = loaded.unwrap_or(scenario.tool);
             at_reference(&mut scenario, target);
             self.given.start(&mut scenario);
-            scenario.variables.extend(held.clone());
-            scenario.as_stated = as_stated.clone();
-            scenario.settings.clone_from(&settings);
-            scenario.set_to_inch = set_to_inch;
+            supposed.of_run(&mut scenario);
             self.theirs = proposals.theirs().clone();
             if is_long {
                 scenario.steps /= SHORTER;
@@ -195,42 +180,6 @@ impl Verifier<'_, '_> {
     /// True where neither side has ways left.
     pub(super) fn went_every_way(&self) -> bool {
         self.coverage.is_complete() && self.target_coverage.is_complete()
-    }
-
-    /// The variables that the program's callers are known to have set, and what they hold.
-    pub(super) fn held(&self) -> BTreeMap<String, f64> {
-        let assumed = self.job.assumptions.get(&self.program).into_iter().flatten();
-        let held = assumed.filter_map(|one| match &one.predicate {
-            Predicate::Holds(name, value) => Some((name.to_string(), *value)),
-            _ => None,
-        });
-        held.collect()
-    }
-
-    /// What the target's settings are supposed to be: while this program runs, and so what it calls.
-    fn settings(&self) -> BTreeMap<String, f64> {
-        let mut settings = BTreeMap::new();
-        for one in self.assumed_below() {
-            if let Predicate::Setting(name, value) | Predicate::TurnedSetting(name, value) = &one.predicate {
-                settings.entry(name.to_string()).or_insert(*value);
-            }
-        }
-        settings
-    }
-
-    /// The unit that the target is supposed to be set to, where that is not the one of its profile: true for inches.
-    fn set_to_inch(&self) -> Option<bool> {
-        self.assumed_below().into_iter().find_map(|one| match one.predicate {
-            Predicate::SetTo(unit) => Some(unit == Op::Inch),
-            _ => None,
-        })
-    }
-
-    /// What is assumed of this program, and of all that it calls.
-    fn assumed_below(&self) -> Vec<&Assumption> {
-        let called = self.job.source.links().called_from(self.program, |_| true);
-        let programs = std::iter::once(&self.program).chain(&called);
-        programs.filter_map(|program| self.job.assumptions.get(program)).flatten().collect()
     }
 
     /// A scenario in which the source came to no end, once more with inputs that change while it waits for them: given

@@ -134,7 +134,9 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         | Predicate::Setting(..)
         | Predicate::TurnedSetting(..) => Held::Kept,
         // Those of one block are looked at together.
-        Predicate::Substitute(_) | Predicate::Unseen | Predicate::Subscripts(_) => Held::Untried,
+        Predicate::Substitute(_) | Predicate::OfMachine(_) | Predicate::Unseen | Predicate::Subscripts(_) => {
+            Held::Untried
+        }
         Predicate::Arguments { function, places, domain } => {
             let here = computed(&run.arguments, of, run, Some(places)).filter(|one| one.what.0 == *function);
             judged(here, |(_, arguments)| domain.contains(*arguments), call)
@@ -187,6 +189,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Levels(..)
         | Predicate::Tools(_)
         | Predicate::Substitute(_)
+        | Predicate::OfMachine(_)
         | Predicate::Unseen
         | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, domain, .. } => {

@@ -2,7 +2,7 @@
 
 use super::way::Point;
 use super::{EXACT, alarm, sense};
-use crate::canon::{Op, Role};
+use crate::canon::{CycleSetting, Op, Role};
 use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
@@ -107,7 +107,9 @@ fn groove(machine: &Machine, op: Op, command: &Command, trace: &mut Trace) -> Re
     let relief = if names(1 - along) { relief.max(0.0) } else { 0.0 };
     let told = if op == Op::FaceGroove { machine.lathe.face_retract } else { machine.lathe.groove_retract };
     let several = peck > 0.0 && peck < (e[along] - a[along]).abs() - EXACT;
+    let left = turning.left.contains(&CycleSetting::PeckRetract);
     let retract = match told.or(turning.peck_retract) {
+        _ if left => 0.0,
         Some(retract) => retract,
         None if !several => 0.0,
         None if turning.two_blocks => {

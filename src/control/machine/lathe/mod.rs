@@ -16,6 +16,7 @@ mod levels;
 pub(super) mod pass;
 mod profile;
 mod rough;
+mod screw;
 pub(super) mod settings;
 mod shape;
 mod stretches;

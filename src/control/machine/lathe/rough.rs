@@ -6,7 +6,7 @@ use super::shape::Piece;
 use super::stretches::{DEEPER, Rough};
 use super::way::Point;
 use super::{Cut, alarm, along, sense};
-use crate::canon::{Op, Role};
+use crate::canon::{CycleSetting, Op, Role};
 use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, Leg, Position, Trace};
@@ -132,7 +132,8 @@ fn cut(machine: &Machine, command: &Command, axis: usize) -> Result<(f64, f64), 
         None => told,
     };
     let depth = depth.or(turning.depth);
-    let retract = retract.or(turning.retract);
+    let left = turning.left.contains(&CycleSetting::RoughRetract);
+    let retract = if left { Some(0.0) } else { retract.or(turning.retract) };
     let depth =
         depth.ok_or_else(|| Stop::unnamed("a roughing whose depth no block and no parameter says"))?;
     if depth <= 0.0 {

@@ -1,9 +1,9 @@
 //! The settings of a lathe, read once.
 
-use crate::canon::{Op, Role};
+use crate::canon::{CycleSetting, Op, Role};
 use crate::control::machine::INCH;
 use crate::dialect::{Axis, Control, Question, Setting, Units};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The settings; lengths in millimetres.
 #[derive(Clone, Debug, Default)]
@@ -56,6 +56,8 @@ pub struct Turning {
     pub thread_angles: Option<Vec<f64>>,
     /// True where the machine's profile names a C axis.
     pub has_c: bool,
+    /// What a scenario leaves to the machine, on both sides.
+    pub left: BTreeSet<CycleSetting>,
     /// The axes that its profile lists, by their places in a position; X and Z where it lists none.
     pub axes: Vec<usize>,
 }
@@ -136,6 +138,7 @@ impl Turning {
             thread_angles: answer(Question::ThreadAngles)
                 .filter(|list| !["any", "unknown"].contains(list))
                 .map(|list| list.split('.').filter_map(|angle| angle.parse().ok()).collect()),
+            left: BTreeSet::new(),
             axes: axes(control),
             has_c: control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&Axis::C)),
         }

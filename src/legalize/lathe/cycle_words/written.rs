@@ -3,13 +3,14 @@
 use super::super::cycle_values::{Given, Need, Values, setting_named};
 use super::super::groove_loops::Groove;
 use super::super::groove_passes;
+use super::super::left_settings::leaves;
 use super::super::setting_values::{Instead, So, written};
 use super::super::settings::{Kind, setting, stands_in};
 use super::super::thread_loops::{Loop, Made};
 use super::super::thread_passes::{UNKNOWN, all, finishes, runs_out as single_passes};
 use super::{OTHER_UNIT, Run};
 use crate::assume::Predicate;
-use crate::canon::{Op, Role};
+use crate::canon::{CycleSetting, Op, Role};
 use crate::dialect::Question;
 use crate::ir::Stmt;
 use crate::text::Span;
@@ -42,6 +43,8 @@ impl Run<'_> {
             let there = setting(self.source, kind.cycle, *role).is_some()
                 || stands_in(self.source, self.features, kind.cycle, *role);
             let here = setting(self.target, kind.cycle, *role).is_some() && !written(role);
+            // What is left to the machine is right in its own unit.
+            let here = here && !(leaves(self.target) && CycleSetting::of(kind.cycle, *role).is_some());
             role.is_length() && ((source || target) && there || target && here)
         })
     }
