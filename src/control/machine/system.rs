@@ -8,7 +8,7 @@ use super::rules::RadiusTable;
 use crate::canon::{Act, Op, Sys};
 use crate::control::outcome::Stop;
 use crate::control::scenario::AXES;
-use crate::control::trace::{EventKind, Spindle, Trace};
+use crate::control::trace::{EventKind, Side, Spindle, Trace};
 use crate::dialect::Question;
 
 /// The key of a cell; states have two subscripts at the most.
@@ -46,6 +46,10 @@ impl Machine {
                 | Sys::SkipPosition
                 | Sys::AxisPosition
         );
+        if place && self.rules.lathe && self.side != Side::Off {
+            // The path that the tool takes is not worked out.
+            trace.doubt("machine:lathe.nose.path");
+        }
         if place && self.lathe.surface.is_some() {
             trace.doubt("machine:lathe.face.place");
         }
@@ -68,7 +72,12 @@ impl Machine {
         }
         match state {
             // Reading takes a tick, before the answer: a timer that is set from this reading starts at 0.
-            Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds => self.clock += self.tick,
+            Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds => {
+                if self.lathe.has_stood {
+                    trace.doubt("machine:lathe.spindle.stands");
+                }
+                self.clock += self.tick;
+            }
             Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => {
                 self.rules.radius_table.ask(trace);
             }

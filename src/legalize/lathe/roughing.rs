@@ -57,7 +57,9 @@ fn noses(module: &Module, context: &mut Context<'_>) {
     let facts = facts_uncompensated(module, context);
     facts.each(module, &mut |index, stmt, before, _| {
         let Some(nc) = stmt.kind.nc() else { return };
-        let Some(op) = nc.ops().find(|op| CYCLES.contains(op)) else { return };
+        if !nc.ops().any(|op| CYCLES.contains(&op)) {
+            return;
+        }
         let in_force = before.op(Group::RadiusComp) != Some(Op::RadiusOff);
         let inside = module.programs.get(index).is_some_and(|program| {
             let mut blocks = contour(program, nc);
@@ -67,10 +69,13 @@ fn noses(module: &Module, context: &mut Context<'_>) {
             context.rests_on_source(index, stmt.site.span, Question::RoughingNose);
             context.rests_on_target(index, stmt.site.span, Question::RoughingNose);
             let told = Diagnostic::new(Code::Conditional, stmt.site.span, NOSE).with_help(NOSE_HELP);
-            context.add_once(index, NOSE, told.assuming(Predicate::Substitute(op)).asked_once());
+            context.add_once(index, NOSE, told.with_fact(ROUGHED).asked_once());
         }
     });
 }
+
+/// What the emulated controls do there.
+const ROUGHED: &str = "machine:lathe.nose.roughing";
 
 const NOSE: &str = "the nose radius is compensated (G41, G42) while this contour is roughed: one of the two controls is taken to change the allowance by the \
                     radius then, and the other one not";

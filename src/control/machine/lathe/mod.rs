@@ -109,6 +109,8 @@ pub(super) struct Lathe {
     pub last_dwell: Option<f64>,
     /// True where threads an inch said the feed last.
     pub per_inch: bool,
+    /// True once a feed a turn came while the spindle stood: how long that takes no source says.
+    pub has_stood: bool,
     /// True once a tap has turned a spindle that stood, or a live tool, and left the spindle as it was.
     pub has_tapped: bool,
     /// True after a cycle, until a code of motion stands in a block.

@@ -51,7 +51,7 @@ fn thread_to(
     }
     let turns = turns_of(way, cut).ok_or_else(|| alarm("PS0313", "the lead becomes negative"))?;
     machine.position = to;
-    super::time::thread(machine, &from, turns, trace);
+    super::time::thread(machine, &from, turns);
     trace.push(EventKind::Thread {
         from: Position(from),
         to: Position(to),

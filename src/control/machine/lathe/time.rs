@@ -50,11 +50,11 @@ pub fn arc(machine: &mut Machine, start: &Axes, middle: &Axes, sweep: f64, trace
 }
 
 /// Lets the time of a thread pass: so many turns, at the speed that the spindle has where it begins (S8).
-pub fn thread(machine: &mut Machine, from: &Axes, turns: f64, trace: &mut Trace) {
+pub fn thread(machine: &mut Machine, from: &Axes, turns: f64) {
     let x = from[0] - machine.frame.shift(0);
     match spindle(machine) {
         Some(speed) => machine.clock += turns * speed.minutes(x) * MINUTE,
-        None => trace.doubt("machine:lathe.spindle.stands"),
+        None => machine.lathe.has_stood = true,
     }
 }
 
@@ -66,8 +66,8 @@ fn feed(machine: &mut Machine, way: f64, trace: &mut Trace, mean: impl Fn(&Turns
     match spindle(machine) {
         Some(turns) if machine.feed > 0.0 => machine.clock += way / machine.feed * mean(&turns) * MINUTE,
         Some(_) => {}
-        // On the machine it waits for ever (S7).
-        None => trace.doubt("machine:lathe.spindle.stands"),
+        // On the machine it waits for ever (S7): no program sees that but by a clock.
+        None => machine.lathe.has_stood = true,
     }
 }
 

@@ -42,10 +42,6 @@ pub fn nose(machine: &mut Machine, side: Side, trace: &mut Trace) {
     machine.radius_offset = if off { 0 } else { machine.lathe.offset };
     let row = machine.lathe.row(machine.radius_offset);
     let (value, tip) = if off { (0.0, 0) } else { (row.radius, row.tip.clamp(0.0, 9.0) as u32) };
-    if !off {
-        // The path that the tool takes is not worked out.
-        trace.doubt("machine:lathe.nose.path");
-    }
     trace.push(EventKind::CutterRadius { side, offset: machine.radius_offset, value, tip });
 }
 
