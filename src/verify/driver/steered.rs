@@ -135,7 +135,7 @@ impl Verifier<'_, '_> {
     }
 
     /// The ways of the source that are left, and those that only runs went which its control stopped.
-    fn left(&self) -> Vec<Way> {
+    fn ways_left(&self) -> Vec<Way> {
         let unsound =
             if self.source_stops.is_empty() { Vec::new() } else { self.sound.lacks(&self.coverage) };
         self.coverage.left().into_iter().chain(unsound).collect()
@@ -154,7 +154,7 @@ impl Verifier<'_, '_> {
         searched: &Searched,
         on_target: bool,
     ) -> Option<(Way, usize, f64)> {
-        let ways = if on_target { self.target_coverage.left() } else { self.left() };
+        let ways = if on_target { self.target_coverage.left() } else { self.ways_left() };
         let from = |way: &Way| searched.get(way).map_or(&[][..], Vec::as_slice);
         let mut ways: Vec<Way> = ways.into_iter().filter(|way| from(way).len() < SEARCHES).collect();
         ways.sort_by_key(|way| from(way).len());
@@ -237,7 +237,7 @@ impl Verifier<'_, '_> {
         }
         match went {
             // Another alarm of the control shows nothing.
-            true if !on_target && self.left().contains(&way) => (Attempt::Near(None), new),
+            true if !on_target && self.ways_left().contains(&way) => (Attempt::Near(None), new),
             true => (Attempt::Reached, new),
             false => (Attempt::Near(near.filter(|_| !is_cut(&run))), new),
         }
