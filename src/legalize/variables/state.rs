@@ -6,6 +6,7 @@
 //! the target's table has one number that holds size and wear.
 
 pub(in crate::legalize) mod additional;
+mod ends;
 mod findings;
 
 use crate::canon::{Group, Op, Role, Sys};
@@ -48,6 +49,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let (source, target) = (context.source, context.target);
     let (mut timed, mut changed) = (BTreeSet::new(), Vec::new());
     let additional = additional::may_select(module, context);
+    let plain = ends::plain(module, context);
     for (index, program) in module.programs.iter_mut().enumerate() {
         if !context.may_concern(index, concerns) {
             continue;
@@ -75,7 +77,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
         found.retain(|(span, finding)| {
             !matches!(finding, Finding::Renumbered(..)) || !compared.contains(span)
         });
-        for (_, finding) in &mut found {
+        for (span, finding) in &mut found {
+            if let Finding::Frame(Sys::EndPosition) = finding
+                && plain.contains(&(index, *span))
+            {
+                *finding = Finding::Frame(Sys::WorkPosition);
+            }
             if let Finding::Renumbered(code, true) = finding
                 && !additional
             {
