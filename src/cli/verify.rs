@@ -122,6 +122,8 @@ pub(super) fn names(home: &Home, from: &Control, to: &Control) -> Result<SymbolM
         variables: lock.variables,
         scratch: lock.scratch.into_iter().collect(),
         of_words: lock.of_words.into_iter().collect(),
+        arguments: lock.arguments,
+        always: lock.always,
         programs: lock.programs,
     })
 }

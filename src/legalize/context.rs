@@ -15,6 +15,8 @@ use crate::legalize::layout::{earlier::Earlier, program_numbers::ProgramNumbers}
 use crate::legalize::registers::{interface::Interface, locked::Locked, map::Registers};
 use crate::legalize::variables::computed_numbers::Reached;
 use crate::opt::Level;
+use crate::syntax::ProgramName;
+
 use crate::text::Span;
 use findings::Findings;
 use foldhash::{HashMap, HashSet};
@@ -59,6 +61,11 @@ pub struct Context<'a> {
     pub copied: Vec<Copied>,
     /// The arguments that come from outside the library or go there, from the pass `frames` on.
     pub(super) interface: Interface,
+    /// By program: its own locals that it reads before it sets them, as it calls them; on a target without locals, from the
+    /// pass `frames` on.
+    pub(super) taken: BTreeMap<ProgramName, BTreeSet<String>>,
+    /// By program: its locals that every call gives a value, from the pass `vacancy-flags` on.
+    pub(super) always: BTreeMap<ProgramName, BTreeSet<String>>,
     /// The register of each variable, from the pass `registers` on.
     pub registers: Registers,
     /// The number of each program, from the pass `program-numbers` on.
@@ -116,6 +123,8 @@ impl<'a> Context<'a> {
             locked: Locked::default(),
             over_calls: BTreeSet::new(),
             interface: Interface::default(),
+            taken: BTreeMap::new(),
+            always: BTreeMap::new(),
             copied: Vec::new(),
             registers: Registers::default(),
             numbers: ProgramNumbers::default(),

@@ -45,6 +45,12 @@ pub struct Lock {
     /// Register numbers on the target, by the variable's name on the source.
     #[serde(default)]
     pub variables: BTreeMap<String, u32>,
+    /// Registers that calls set to what they give, by its name in the program that is called.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub arguments: BTreeMap<String, u32>,
+    /// Those of them that every call gives a value.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub always: BTreeSet<String>,
     /// Program numbers on the target, by what names the program on the source.
     #[serde(default)]
     pub programs: BTreeMap<String, u32>,
@@ -82,8 +88,8 @@ const UNNAMED: &str = "programs that were converted before";
 const HEAD: &str = "\
 # Which register of the target holds which variable of the source, which hold
 # values in between (scratch, and of_words on a target whose words take registers
-# of their own; over_calls: those that outlive calls), and which number each program
-# got that had none there. Nothing goes to the numbers in own and reached: the
+# of their own; over_calls: those that outlive calls), what calls give to programs
+# (arguments), and which number each program got that had none there. Nothing goes to the numbers in own and reached: the
 # programs of the files use them themselves. Written by macroglot, honoured by its
 # next run; keep it with the converted programs.
 
@@ -118,6 +124,8 @@ impl Lock {
         if self.others.is_empty() {
             (self.own, self.reached, self.over_calls) = Default::default();
             self.parts.clear();
+            self.arguments.clear();
+            self.always.clear();
         }
         let named = self.others.iter().filter(|file| *file != UNNAMED).cloned();
         self.files = named.chain(names.into_iter().map(str::to_owned)).collect();
@@ -131,6 +139,14 @@ impl Lock {
         let freed = |name: &String, _: &mut u32| !registers.freed.contains(name);
         self.variables.retain(freed);
         self.variables.extend(registers.chosen.clone());
+        // What an earlier run chose for the programs of this one counts no more.
+        let whose = |name: &str| name.rsplit_once(' ').map(|(_, program)| program.to_owned());
+        let again: BTreeSet<String> = registers.arguments.keys().filter_map(|name| whose(name)).collect();
+        let stays = |name: &String| whose(name).is_none_or(|program| !again.contains(&program));
+        self.arguments.retain(|name, _| stays(name));
+        self.always.retain(stays);
+        self.arguments.extend(registers.arguments.clone());
+        self.always.extend(registers.always.clone());
         let held: BTreeSet<u32> = registers.held().filter(|_| self.others.is_empty()).collect();
         let scratch: BTreeSet<u32> = registers.scratch.iter().chain(&self.scratch).copied().collect();
         self.scratch = scratch.difference(&held).copied().collect();

@@ -101,6 +101,8 @@ pub(super) fn names(conversion: &Conversion) -> SymbolMap {
         variables: lock.variables.clone(),
         scratch: lock.scratch.iter().copied().collect(),
         of_words: lock.of_words.iter().cloned().collect(),
+        arguments: lock.arguments.clone(),
+        always: lock.always.clone(),
         programs: lock.programs.clone(),
     }
 }

@@ -13,6 +13,7 @@ use crate::text::Span;
 use crate::verify::{self, Certificate, Effort, Job, OpenFact, ProgramCertificate, Side, Spent, Why};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A program that is to be judged: its report among the conversion's, and the program on its control.
 type Wanted = (usize, ProgramRef);
@@ -108,7 +109,10 @@ pub fn judge_telling(
     for (certificate, wanted) in verified.iter_mut().flatten().zip(wanted.iter().filter(|w| !w.is_empty())) {
         for ((at, program), mut found_here) in wanted.iter().zip(std::mem::take(&mut certificate.programs)) {
             let report = &mut conversion.programs[*at].diagnostics;
-            ask_of_machines(&mut found_here, report, place(*program), [source, target]);
+            let entered = found_here.entered.iter().filter(|entered| *entered != program);
+            let below = entered.filter_map(|program| assumptions.get(program)).flatten();
+            let below: Vec<Arc<str>> = below.map(|one| one.text.clone()).collect();
+            ask_of_machines(&mut found_here, (report, &below), place(*program), [source, target]);
             callees.look(*at, place(*program), &found_here);
             found.insert(*at, found_here);
         }
@@ -226,7 +230,7 @@ fn undecided(program: &mut super::ProgramReport, why: &str) {
 /// it answers for all programs: it is no reason to be undecided.
 fn ask_of_machines(
     found: &mut ProgramCertificate,
-    report: &mut Vec<Diagnostic>,
+    (report, below): (&mut Vec<Diagnostic>, &[Arc<str>]),
     span: Span,
     [source, target]: [&Control; 2],
 ) {
@@ -235,20 +239,23 @@ fn ask_of_machines(
         found.reasons.retain(|reason| reason.text != text);
         report.push(control.unconfirmed(side, &fact, None, span));
     }
-    leave_to_others(found, report);
+    leave_to_others(found, report, below);
     if found.outcome == verify::Outcome::Undecided && found.reasons.is_empty() {
         found.outcome = verify::Outcome::Same;
     }
 }
 
-/// Leaves out runs that broke a condition which the report asks about anyway: its own question says what they met, and
-/// that no run kept it would be a reason by itself.
-fn leave_to_others(found: &mut ProgramCertificate, report: &[Diagnostic]) {
+/// Leaves out runs that broke a condition which the report asks about anyway, or one `below` it that the report of a callee
+/// asks about: its own question says what they met, and that no run kept it would be a reason by itself.
+fn leave_to_others(found: &mut ProgramCertificate, report: &[Diagnostic], below: &[Arc<str>]) {
     let is_asked = |text: &str| {
         let mut asked = report.iter().filter(|finding| finding.severity() == Severity::Review);
         asked.any(|finding| finding.assumes.is_some() && text.ends_with(&*finding.message))
     };
-    found.reasons.retain(|reason| reason.why != Why::Condition || !is_asked(&reason.text));
+    let is_below = |text: &str| below.iter().any(|asked| text.ends_with(&**asked));
+    found
+        .reasons
+        .retain(|reason| reason.why != Why::Condition || !is_asked(&reason.text) && !is_below(&reason.text));
 }
 
 /// What happened, where the block does not show it: an alarm with its number, and anything where both `same` blocks do.

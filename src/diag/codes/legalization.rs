@@ -68,6 +68,11 @@ Nothing needs to be done. While the operator turns the override of the spindle, 
 "The target has no local shift (G52). The shift is added to the absolute coordinates of the blocks that it is in force for, and its blocks go. The machine goes to the same places; they are written in the coordinates of the work offset. Where a word may count with one of several shifts, as in a part that is called under each of them, a register holds the shift that was set last, and is added.
 
 Nothing needs to be done. To move such a group of cuts on the target, change the coordinates, or give it a work offset of its own."
+
+    "0415" AlwaysGiven Note "every call gives an argument"
+"The program asks whether an argument was given, and every call in the library gives it. Calls of the target give no arguments: they set registers, which are never without a value. So what the program does without the argument (a value of its own, an alarm) is left out.
+
+Nothing needs to be done for the programs of the library. Who writes a new call for the target must set each of these registers before it. The head of the converted program says which they are. To keep the check, convert the library together with a program that leaves the argument out."
         }
     };
 }

@@ -8,7 +8,7 @@
 use super::clear;
 use super::locked::{self, Locked};
 use super::map::{Register, Registers};
-use super::names::{class_of, keeps_number, name_of, numbers_alike, reached};
+use super::names::{OF, class_of, keeps_number, name_of, numbers_alike, reached};
 use super::needs::class_of_colour;
 use super::pool::Pool;
 use super::runs::{banks, point, run_of};
@@ -25,6 +25,25 @@ use std::collections::{BTreeMap, BTreeSet};
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let (features, locked) = (context.features, context.locked.clone());
     context.registers = allocate(module, &features, &locked, context);
+    (context.registers.arguments, context.registers.always) = arguments(module, context);
+}
+
+/// The registers of what programs find in their own locals, and which of these every call gives a value.
+fn arguments(module: &Module, context: &Context<'_>) -> (BTreeMap<String, u32>, BTreeSet<String>) {
+    let (mut found, mut all) = (BTreeMap::new(), BTreeSet::new());
+    for program in &module.programs {
+        let Some(of) = &program.name else { continue };
+        let Some(taken) = context.taken.get(of) else { continue };
+        for (var, name) in program.held.iter().filter(|(_, name)| taken.contains(name)) {
+            let Some(register) = context.registers.of.get(var) else { continue };
+            let full = format!("{name}{OF}{}", of.short());
+            if context.always.get(of).is_some_and(|always| always.contains(name)) {
+                all.insert(full.clone());
+            }
+            found.insert(full, register.number);
+        }
+    }
+    (found, all)
 }
 
 /// Chooses registers for everything in the library, after the choices of earlier runs.

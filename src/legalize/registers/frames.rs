@@ -23,14 +23,16 @@ use crate::ir::analysis::statics;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::{
     Bank, Block, BlockId, Callee, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind,
-    Terminator, Var,
+    Terminator, Var, flag_of,
 };
 use crate::legalize::calls::merged;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::interface::Interface;
+use crate::legalize::registers::names::OF;
 use crate::legalize::registers::needs::has_locals;
 use crate::legalize::rewrite::put_first;
 use crate::legalize::{Context, Position, Rewriter, calls_of, rewrite_program};
+use crate::syntax::ProgramName;
 use levels::Levels;
 use std::collections::BTreeSet;
 use thin_vec::ThinVec;
@@ -62,6 +64,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             exposed.at_entry(index).into_iter().filter(|var| levels.has(index, *var)).collect();
         begin(index, &mut module.programs[index], &vars, &levels, (&mut interface, context));
     }
+    context.taken = module.programs.iter().enumerate().filter_map(|(at, p)| taken(at, p, &exposed)).collect();
     apart::rename(module, &interface);
     context.interface = interface;
     if !context.target.is(Question::Vacancy) {
@@ -85,6 +88,19 @@ fn held(index: usize, program: &Program, levels: &Levels, source: &Control) -> V
         }
     }
     held
+}
+
+/// What a program calls those of its own locals that it reads before it sets them.
+fn taken(
+    index: usize,
+    program: &Program,
+    exposed: &UpwardExposed,
+) -> Option<(ProgramName, BTreeSet<String>)> {
+    let is_taken = exposed.at_entry_of(index);
+    let flag = flag_of("");
+    let is_own = |name: &str| !name.strip_prefix(&flag).unwrap_or(name).contains(OF);
+    let own = program.held.iter().filter(|(var, name)| is_taken(*var) && is_own(name));
+    Some((program.name.clone()?, own.map(|(_, name)| name.clone()).collect()))
 }
 
 /// A computed number cannot find what a local became.

@@ -20,6 +20,10 @@ pub struct Registers {
     pub of: BTreeMap<Var, Register>,
     /// What was chosen, by the variable's name on the source.
     pub chosen: BTreeMap<String, u32>,
+    /// The registers of what calls give to programs of the library, by name (`#1 of O9010`), on a target without locals.
+    pub arguments: BTreeMap<String, u32>,
+    /// Those of them that every call gives a value.
+    pub always: BTreeSet<String>,
     /// The registers of temporaries.
     pub scratch: BTreeSet<u32>,
     /// Those of classes that words alone take, by name.

@@ -22,7 +22,7 @@ pub(super) fn listed(mut names: Vec<String>) -> String {
 }
 
 /// Names as a sentence has them, all of them.
-pub(super) fn in_a_sentence(names: &[String]) -> String {
+pub(in crate::legalize) fn in_a_sentence(names: &[String]) -> String {
     match names.split_last() {
         Some((last, first)) if !first.is_empty() => format!("{} and {last}", first.join(", ")),
         _ => names.concat(),

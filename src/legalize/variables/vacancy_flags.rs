@@ -10,6 +10,7 @@
 
 mod conditions;
 mod entries;
+mod given;
 mod marks;
 mod outside;
 mod write;
@@ -37,6 +38,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let marks = Marks::of(module, &summaries);
     marks.refuse(module, context);
     name(module, &marks, context);
+    given::tell(module, &marks.always, context);
     for index in 0..module.programs.len() {
         write::program(index, &mut module.programs[index], &marks, context.source);
     }

@@ -8,25 +8,36 @@ use super::summary::lacks_locals;
 use super::verifier::Verifier;
 use crate::control::ProgramRef;
 use crate::verify::entry::is_root;
-use crate::verify::explore::{Coverage, inputs};
-use crate::verify::sides::{class_of, of_target};
+use crate::verify::explore::{Coverage, Given, inputs};
+use crate::verify::sides::{Arguments, class_of, of_target};
+
+/// What runs of its callers show of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum AsCalled {
+    /// All of it.
+    Shown,
+    /// Not all of it.
+    Open,
+    /// One of them does something else on the target.
+    Differs,
+}
 
 /// Programs that it is run from, at the most.
 const CALLERS: usize = 4;
 
 impl Verifier<'_, '_> {
-    /// Runs a program that takes arguments through what calls it. True if that shows all of it: every way was gone, and
-    /// nothing but what its callers are asked for themselves is left to be said.
-    pub(super) fn as_called(&mut self) -> bool {
+    /// Runs a program that takes arguments through what calls it. [`AsCalled::Shown`] if that shows all of it: every way was
+    /// gone, and nothing but what its callers are asked for themselves is left to be said.
+    pub(super) fn as_called(&mut self) -> AsCalled {
         let job = self.job;
         if !self.called || !lacks_locals(job) || !self.takes_arguments() {
-            return false;
+            return AsCalled::Open;
         }
         let above = job.source.links().calling(self.program).into_iter();
         let callers: Vec<ProgramRef> = above.filter(|at| is_root(job, at)).take(CALLERS + 1).collect();
-        let program = [self.program];
-        let mut coverage = Coverage::new(job.source, &program, false);
+        let mut coverage = self.coverage.clone();
         let mut target_coverage = Coverage::new(job.target, &of_target(job, self.program), true);
+        let mut differs = false;
         let (mut shown, mut clean) = (false, !callers.is_empty() && callers.len() <= CALLERS);
         for caller in callers.into_iter().take(CALLERS) {
             let Some(there) = job.names.program(job.source, caller, job.target) else {
@@ -41,7 +52,8 @@ impl Verifier<'_, '_> {
             self.steps += run.steps;
             let enters = run.entered.contains(&self.program);
             if run.witness.is_some() || run.compared == 0 || !enters {
-                clean &= run.witness.is_none();
+                differs |= run.witness.is_some();
+                clean &= !differs;
                 continue;
             }
             (coverage, target_coverage) = (run.coverage.clone(), run.target_coverage.clone());
@@ -53,7 +65,41 @@ impl Verifier<'_, '_> {
         if shown {
             (self.coverage, self.target_coverage) = (coverage, target_coverage);
         }
-        shown && clean && all
+        match (differs, shown && clean && all) {
+            (true, _) => AsCalled::Differs,
+            (false, true) => AsCalled::Shown,
+            (false, false) => AsCalled::Open,
+        }
+    }
+
+    /// Runs it by itself with arguments in the registers that stand for them, as a caller sets them. True if that shows no
+    /// difference: then nothing else is to be run. Where it shows one, that may be what no caller gives, and counts for nothing.
+    pub(super) fn with_arguments(&mut self, there: ProgramRef) -> bool {
+        let job = self.job;
+        if !lacks_locals(job) {
+            return false;
+        }
+        let sides = (job.source.control, job.target.control);
+        let read = inputs(job.source, self.program, job.source).variables.into_iter().map(|input| input.name);
+        let name = job.source.name(self.program);
+        let Some(arguments) = name.and_then(|name| Arguments::of(name, read, job.names, sides)) else {
+            return false;
+        };
+        let mut run = Verifier { arguments: Some(arguments), ..Verifier::new(job, self.program) };
+        (run.coverage, run.target_coverage) = (self.coverage.clone(), self.target_coverage.clone());
+        let locals: Vec<String> = run.arguments.iter().flat_map(Arguments::always).cloned().collect();
+        run.coverage.given(job.source, self.program, &Given { locals: &locals, unit: None });
+        run.all(there);
+        if run.witness.is_some() || run.compared == 0 {
+            job.spent.add(&run.clock);
+            self.tried += run.tried;
+            self.steps += run.steps;
+            return false;
+        }
+        (run.tried, run.steps) = (run.tried + self.tried, run.steps + self.steps);
+        let before = std::mem::replace(self, run);
+        self.take_in(before);
+        true
     }
 
     /// True if its text reads what only a call gives.

@@ -53,7 +53,12 @@ pub(super) struct Places {
 impl Verifier<'_, '_> {
     fn listed(mut self, there: ProgramRef, witness: Option<&Witness>, most: usize) -> Listing {
         let Job { source, target, names, effort, .. } = *self.job;
-        let found = inputs_of_both((source, self.program), (target, there), names, self.called);
+        let found = inputs_of_both(
+            (source, self.program),
+            (target, there),
+            names,
+            (self.called, self.arguments.as_ref()),
+        );
         let inch = unit(source, target).or(found.inch);
         let mut proposals = Proposals::new(&found, effort);
         let mut places = Places::new(most);

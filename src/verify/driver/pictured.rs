@@ -86,9 +86,12 @@ impl Verifier<'_, '_> {
     fn most_telling(&mut self, there: Option<ProgramRef>) -> Option<(Scenario, Run)> {
         let (source, target) = (self.job.source, self.job.target);
         let found = match there {
-            Some(there) => {
-                inputs_of_both((source, self.program), (target, there), self.job.names, self.called)
-            }
+            Some(there) => inputs_of_both(
+                (source, self.program),
+                (target, there),
+                self.job.names,
+                (self.called, self.arguments.as_ref()),
+            ),
             None => inputs(source, self.program, target),
         };
         let inch = unit(source, target).or(found.inch);

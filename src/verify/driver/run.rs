@@ -1,5 +1,6 @@
 //! The verification of programs, step by step.
 
+use super::as_called::AsCalled;
 use super::verifier::Verifier;
 use crate::control::ProgramRef;
 use crate::verify::certificate::{Certificate, ProgramCertificate, Why, implicate};
@@ -27,20 +28,24 @@ impl Verifier<'_, '_> {
     fn run(mut self) -> ProgramCertificate {
         let Job { source, target, names, .. } = self.job;
         let there = names.program(source, self.program, target);
-        match there {
-            Some(_) if self.as_called() => {}
-            Some(there) => {
-                self.search(there);
-                self.in_modes_left(there);
-                self.in_other_unit(there);
-                self.otherwise(there);
-                self.entries(there);
-                self.elsewhere(there);
-                self.edited(there);
-            }
-            None => self.because(Why::NoTarget, "the target has no such program"),
+        match (there, there.map(|_| self.as_called())) {
+            (None, _) => self.because(Why::NoTarget, "the target has no such program"),
+            (_, Some(AsCalled::Shown)) => {}
+            (Some(there), Some(AsCalled::Open)) if self.with_arguments(there) => {}
+            (Some(there), _) => self.all(there),
         }
         self.job.spent.add(&self.clock);
         self.certificate(there)
+    }
+
+    /// All runs of a program by itself, and of its callers for what is in force.
+    pub(super) fn all(&mut self, there: ProgramRef) {
+        self.search(there);
+        self.in_modes_left(there);
+        self.in_other_unit(there);
+        self.otherwise(there);
+        self.entries(there);
+        self.elsewhere(there);
+        self.edited(there);
     }
 }

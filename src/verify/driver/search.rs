@@ -43,7 +43,12 @@ impl Verifier<'_, '_> {
     /// ways left, each is run on both sides.
     pub(super) fn search(&mut self, there: ProgramRef) {
         let Job { source, target, names, effort, .. } = *self.job;
-        let mut found = inputs_of_both((source, self.program), (target, there), names, self.called);
+        let mut found = inputs_of_both(
+            (source, self.program),
+            (target, there),
+            names,
+            (self.called, self.arguments.as_ref()),
+        );
         found.try_also(&telling_numbers(self.job.assumptions, self.program, names));
         let blocks = source.blocks(self.program).len() as u64;
         let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
@@ -113,6 +118,11 @@ impl Verifier<'_, '_> {
         }
         if endless >= ENDLESS {
             starts.retain(|start| start.scenario.steps <= ENDLESS_STEPS);
+            let ended = self.telling.iter().map(|(scenario, theirs)| Circumstances {
+                scenario: Scenario { steps: ENDLESS_STEPS, ..scenario.clone() },
+                theirs: theirs.clone(),
+            });
+            starts.extend(ended);
         }
         if (!self.went_every_way() || !self.is_sound()) && !settled.is_known() {
             starts = self.steer(there, &found, starts);

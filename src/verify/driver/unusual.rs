@@ -15,6 +15,9 @@ use crate::verify::sides::EntryState;
 /// Circumstances from which it is tried, at the most.
 const STARTS: usize = 24;
 
+/// How many such things may be so at once.
+const TOGETHER: usize = 2;
+
 /// Looks at inputs before which they change.
 const LOOKS: std::ops::RangeInclusive<u32> = 2..=4;
 
@@ -32,7 +35,10 @@ impl Verifier<'_, '_> {
     /// Tries circumstances once more with each of these, as long as ways are left, and goes on from those that lead further.
     pub(super) fn try_unusual(&mut self, there: ProgramRef, found: &Inputs, tried: &[Circumstances]) {
         self.is_unusual = true;
-        for unusual in self.unusual(found) {
+        let mut tried = tried.to_vec();
+        let all = self.unusual(found);
+        // One may show only where another one is so too.
+        for unusual in (0..TOGETHER).flat_map(|_| &all) {
             let given = self.given.clone();
             let mut came = Vec::new();
             // Those that came last went ways that the first did not.
@@ -43,7 +49,7 @@ impl Verifier<'_, '_> {
                 let mut start = start.clone();
                 start.scenario.nearness = false;
                 self.theirs = start.theirs.clone();
-                self.put(&unusual, &given, &mut start.scenario);
+                self.put(unusual, &given, &mut start.scenario);
                 let run = self.run_source(&start.scenario);
                 self.steps += run.steps;
                 let new = self.coverage.has_new(&run);
@@ -52,8 +58,9 @@ impl Verifier<'_, '_> {
                 }
             }
             if !came.is_empty() && !self.went_every_way() {
-                self.steer(there, found, came);
+                came = self.steer(there, found, came);
             }
+            tried.extend(came);
             self.given = given;
         }
         self.is_unusual = false;

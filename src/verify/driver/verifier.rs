@@ -2,12 +2,15 @@
 
 use super::steered::Way;
 use super::stuck::Calls;
+use crate::assume::Predicate;
+use crate::canon::Op;
 use crate::control::{ProgramRef, Run, Scenario};
+use crate::dialect::Units;
 use crate::verify::certificate::{Edit, OpenFact, Why, Witness};
 use crate::verify::compare::{Tolerance, is_cut};
 use crate::verify::entry::given;
-use crate::verify::explore::{Coverage, asked, on_target, set_by_hand};
-use crate::verify::sides::{Clock, Effort, EntryState, Job, of_target};
+use crate::verify::explore::{Coverage, Given, asked, on_target, set_by_hand};
+use crate::verify::sides::{Arguments, Clock, Effort, EntryState, Job, of_target};
 use crate::verify::triage::Shown;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,6 +41,8 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) counted: ProgramRef,
     /// True where other programs of the library call it.
     pub(super) called: bool,
+    /// Where its arguments stand on a target whose calls give none, while it is given some by itself.
+    pub(super) arguments: Option<Arguments>,
     /// What all its callers give it.
     pub(super) given: EntryState,
     /// What is in force at the start on the target, where that is not the same as on the source.
@@ -97,6 +102,10 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let called = job.source.links().is_called(program);
         // Worked out for all programs at once, so before the time of this one begins.
         let given = called.then(|| job.source.given.get_or_init(|| given(job)).get(&program).cloned());
+        let mut coverage = Coverage::new(job.source, &[program], false);
+        if let Some(unit) = unit_of_target(job, program) {
+            coverage.given(job.source, program, &Given { locals: &[], unit: Some(unit) });
+        }
         let Effort { program_seconds, library_seconds, .. } = job.effort;
         Self {
             job,
@@ -104,11 +113,12 @@ impl<'v, 'j> Verifier<'v, 'j> {
             program,
             counted: program,
             called,
+            arguments: None,
             given: given.flatten().unwrap_or_default(),
             target_given: None,
             sound: Coverage::new(job.source, &[program], false),
             source_stops: BTreeSet::new(),
-            coverage: Coverage::new(job.source, &[program], false),
+            coverage,
             target_coverage: Coverage::new(job.target, &of_target(job, program), true),
             theirs: BTreeMap::new(),
             reasons: BTreeMap::new(),
@@ -142,6 +152,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
     pub(super) fn circumstances(&self, scenario: &Scenario, run: &Run) -> Scenario {
         let Job { source, target, names, .. } = self.job;
         let mut out = on_target((scenario, run), names, (source, target), (self.called, &self.theirs));
+        if let Some(arguments) = &self.arguments {
+            arguments.give(&scenario.variables, &mut out.variables);
+        }
         // What is called is in the unit of its caller, on both sides.
         let of_caller = self.given.inch().or(if self.called { scenario.inch } else { None });
         out.inch = set_by_hand(target, run).or(of_caller).or(out.inch);
@@ -158,6 +171,11 @@ impl<'v, 'j> Verifier<'v, 'j> {
 
     pub(super) fn run_source(&self, scenario: &Scenario) -> Run {
         let source = self.job.source;
+        if let Some(arguments) = &self.arguments {
+            let mut scenario = scenario.clone();
+            arguments.complete(&mut scenario.variables);
+            return (source.execute)(&source.library, self.program, source.control, &scenario);
+        }
         (source.execute)(&source.library, self.program, source.control, scenario)
     }
 
@@ -167,4 +185,15 @@ impl<'v, 'j> Verifier<'v, 'j> {
             texts.insert(text.to_owned());
         }
     }
+}
+
+/// The code of the source for the unit that the target is in, where no code of its programs changes that.
+fn unit_of_target(job: &Job<'_>, program: ProgramRef) -> Option<f64> {
+    let assumed = job.assumptions.get(&program).into_iter().flatten();
+    if assumed.into_iter().any(|one| matches!(one.predicate, Predicate::SetTo(_))) {
+        return None;
+    }
+    let units = job.target.control.units().filter(|_| !job.target.selects_unit())?;
+    let op = if units == Units::Inch { Op::Inch } else { Op::Metric };
+    job.source.control.code_for(op, &BTreeMap::new()).and_then(|row| row.code.get(1..)?.parse().ok())
 }

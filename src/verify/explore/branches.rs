@@ -1,6 +1,6 @@
 //! The branches of a program, and which ways they went.
 
-use super::constants::impossible;
+use super::constants::{Given, impossible};
 use crate::control::{ProgramRef, Run};
 use crate::syntax::{ItemKind, Target, for_each_item};
 use crate::text::Span;
@@ -59,7 +59,9 @@ impl Coverage {
                 });
             }
             never.extend(
-                impossible(side, *program, as_run).into_iter().map(|(span, way)| ((program.file, span), way)),
+                impossible(side, *program, as_run, &Given::default())
+                    .into_iter()
+                    .map(|(span, way)| ((program.file, span), way)),
             );
         }
         let longest =
@@ -72,6 +74,13 @@ impl Coverage {
             read: BTreeSet::new(),
             own: BTreeSet::new(),
         }
+    }
+
+    /// Takes out what a program never does with what is `given` to it.
+    pub fn given(&mut self, side: &Side<'_>, program: ProgramRef, given: &Given<'_>) {
+        let never = impossible(side, program, false, given).into_iter();
+        let never = never.map(|(span, way)| ((program.file, span), way));
+        self.impossible.extend(never.filter(|(place, _)| self.branches.contains_key(place)));
     }
 
     /// Notes where a run went. True where that was new.

@@ -12,14 +12,16 @@ mod conditions;
 mod jumps;
 mod known;
 
-use crate::canon::{Func, Sys};
+use crate::canon::{Func, Group, Sys};
 use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
 use crate::syntax::{BinaryOp, Block, Expr, ExprKind, Index, Item, ItemKind, Target, TestSubject, VarRef};
 use crate::text::Span;
 use crate::verify::explore::steer::Input;
 use crate::verify::sides::{Side, class_of, name_of};
+pub use jumps::ends_head;
 use jumps::{Jumps, State, goes, is_plain, join, keeps_locals};
+pub use known::Given;
 use known::{Known, Range};
 use std::collections::BTreeSet;
 
@@ -30,11 +32,16 @@ const REGISTER: &str = "";
 ///
 /// How a vacant variable compares counts only where a source confirms it; or, with `as_run`, as the emulated control has
 /// it: runs on it tell by themselves where that mattered.
-pub fn impossible(side: &Side<'_>, program: ProgramRef, as_run: bool) -> BTreeSet<(Span, i64)> {
-    let mut out = read(side, program, Looks { as_run, follows: as_run, edited: false });
+pub fn impossible(
+    side: &Side<'_>,
+    program: ProgramRef,
+    as_run: bool,
+    given: &Given<'_>,
+) -> BTreeSet<(Span, i64)> {
+    let mut out = read(side, program, Looks { as_run, follows: as_run, edited: false }, given);
     if !as_run {
         let edited = !side.links().is_called(program);
-        out.extend(read(side, program, Looks { as_run, follows: true, edited }));
+        out.extend(read(side, program, Looks { as_run, follows: true, edited }, given));
     }
     out
 }
@@ -49,7 +56,7 @@ struct Looks {
     edited: bool,
 }
 
-fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i64)> {
+fn read(side: &Side<'_>, program: ProgramRef, looks: Looks, given: &Given<'_>) -> BTreeSet<(Span, i64)> {
     let (control, text, links) = (side.control, side.text(program), side.links());
     // Under a modal call, its own or its callers', each move of the program may be one.
     let may_be = links.is_called(program) || !text.iter().all(|block| is_plain(&block.items, control));
@@ -62,7 +69,8 @@ fn read(side: &Side<'_>, program: ProgramRef, looks: Looks) -> BTreeSet<(Span, i
         six,
         modal,
         jumps,
-        known: State::new(),
+        unit: given.unit,
+        known: given.locals.iter().map(|name| (name.clone(), Known::Number(Range::ANY))).collect(),
         is_reached: true,
         in_head: looks.edited,
         out: BTreeSet::new(),
@@ -94,18 +102,14 @@ struct Reader<'c> {
     /// True if its moves may be calls.
     modal: bool,
     jumps: Jumps,
+    /// The code of the unit, where that is always the same.
+    unit: Option<f64>,
     known: State,
     /// False where nothing comes to.
     is_reached: bool,
     /// True as long as literals may be any number.
     in_head: bool,
     out: BTreeSet<(Span, i64)>,
-}
-
-/// True for what ends the head of a program, whose literals its operator edits: the first branch, or what one leads to.
-pub fn ends_head(item: &Item) -> bool {
-    use ItemKind::*;
-    matches!(item.kind, If { .. } | Do { .. } | End { .. } | Goto(_) | Branch { .. } | Label(_))
 }
 
 impl Reader<'_> {
@@ -159,6 +163,8 @@ impl Reader<'_> {
                     Some(name) => self.set(name, value),
                     // Nothing goes on after an alarm.
                     None if self.looks.follows && self.is_alarm(target) => self.is_reached = false,
+                    // No variable of a program; at a stop the operator may set any.
+                    None if self.is_system(target) && self.state(target) != Some(Sys::StopMessage) => {}
                     None => self.known.clear(),
                 }
             }
@@ -306,19 +312,6 @@ impl Reader<'_> {
         class_of(self.control, name).is_some_and(|class| class.nullable)
     }
 
-    fn is_system(&self, variable: &VarRef) -> bool {
-        self.state(variable).is_some()
-    }
-
-    fn is_alarm(&self, variable: &VarRef) -> bool {
-        self.state(variable) == Some(Sys::Alarm)
-    }
-
-    fn state(&self, variable: &VarRef) -> Option<Sys> {
-        let Index::Number(number) = variable.index else { return None };
-        self.control.read_system(&variable.name, Some(number)).map(|(state, ..)| state)
-    }
-
     fn value_of(&self, variable: &VarRef) -> Option<Known> {
         let Index::Number(number) = variable.index else { return None };
         match self.control.read_system(&variable.name, Some(number)) {
@@ -327,7 +320,12 @@ impl Reader<'_> {
                 Some(Known::Number(SELECTED))
             }
             // What the machine says is a number.
-            Some(_) => Some(Known::Number(Range::ANY)),
+            Some((state, subscripts, _)) => {
+                let unit = self
+                    .unit
+                    .filter(|_| state == Sys::Modal && subscripts.first().copied() == Group::Units.number());
+                Some(Known::Number(unit.map_or(Range::ANY, Range::one)))
+            }
             None => self.known.get(&self.name(variable)?).cloned(),
         }
     }

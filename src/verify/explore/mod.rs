@@ -14,7 +14,7 @@ mod steer;
 
 pub use alarms::compare_alarms;
 pub use branches::{Coverage, NotReached};
-pub use constants::ends_head;
+pub use constants::{Given, ends_head};
 pub use inputs::{Inputs, inputs, inputs_of_both};
 pub use nearby::{hangs_on, in_order};
 pub use on_target::{asked, on_target, set_by_hand, unit};

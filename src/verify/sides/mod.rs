@@ -2,6 +2,7 @@
 //!
 //! All other rooms use these types; none of these knows what a run shows.
 
+mod arguments;
 mod clock;
 mod edited_text;
 mod entry_state;
@@ -16,6 +17,7 @@ mod side;
 mod stands;
 mod symbol_map;
 
+pub use arguments::Arguments;
 pub use clock::{Clock, Spent};
 pub use edited_text::EditedText;
 pub use entry_state::EntryState;

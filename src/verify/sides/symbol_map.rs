@@ -15,6 +15,10 @@ use std::ops::Bound;
 pub struct SymbolMap {
     /// Register numbers: `V12` to 512; `V(..)` to what is added to every number.
     pub variables: BTreeMap<String, u32>,
+    /// Registers that callers set on a target whose calls give no arguments, by the argument and its program: `#1 of O9010`.
+    pub arguments: BTreeMap<String, u32>,
+    /// Those of them that every call gives a value.
+    pub always: BTreeSet<String>,
     /// Registers of the target that hold values in between and that nobody may rely on.
     pub scratch: BTreeSet<u32>,
     /// Those of classes that words alone take, by name.

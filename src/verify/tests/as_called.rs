@@ -93,3 +93,66 @@ fn what_no_caller_can_give_is_no_difference() {
     let takes_nothing = TAKES.replace("G0X#1\n#500=#2\n", "G0X#500\n");
     assert_eq!(alone(&takes_nothing, target).outcome, Outcome::Different);
 }
+
+const ASKS: &str =
+    "O2\nG90G94\nIF[#1EQ#0]GOTO8\nIF[#2EQ#0]GOTO8\n#3=#1+#2\nIF[#3GT3]GOTO5\nG1X#3F10.\nN5G0Y1.\nN8M99\n";
+
+const BY_REGISTERS: &str = "\
+N1 O2
+N2 G90 G94
+N4 #IF V3 LE 0. THEN GOTO :N8
+N5 #V4=V1+V2
+N6 #IF V4 GT 3. THEN GOTO :N5
+N7 #R5=V4
+N8 G1 X+R5 F10.
+N9 #:N5
+N10 G0 Y1.
+N11 #:N8
+N12 M99
+";
+
+/// A macro that nothing calls, where the conversion says in which registers its arguments stand.
+fn by_itself(target: &str, always: &[&str]) -> ProgramCertificate {
+    let arguments = [("#1 of O2", 1), ("#2 of O2", 2), ("flag of #1 of O2", 3)];
+    let names = SymbolMap {
+        arguments: arguments.into_iter().map(|(name, register)| (name.to_owned(), register)).collect(),
+        always: always.iter().map(|name| (*name).to_owned()).collect(),
+        scratch: BTreeSet::from([4]),
+        of_words: BTreeSet::from(["R5".to_owned()]),
+        ..SymbolMap::default()
+    };
+    named(("fanuc", ASKS), ("fadal", target), names).remove(0)
+}
+
+#[test]
+fn registers_that_are_known_are_set_as_a_call_does() {
+    let found = by_itself(BY_REGISTERS, &["#2 of O2"]);
+    let others: Vec<_> = found.reasons.iter().filter(|reason| reason.why != Why::Unconfirmed).collect();
+    assert!(others.is_empty() && found.witness.is_none(), "{found:#?}");
+    // That #2 is missing is one way of three conditions, and no call goes it.
+    assert_eq!((found.branches_covered, found.branches_total), (5, 5), "{found:#?}");
+}
+
+#[test]
+fn what_it_does_otherwise_with_its_arguments_shows() {
+    for (from, to) in [
+        ("V4=V1+V2", "V4=V1-V2"),
+        ("V4=V1+V2", "V4=V2+V2"),
+        ("GT 3.", "GE 3."),
+        ("V3 LE 0.", "V3 LE 1."),
+        ("V3 LE 0.", "V3 LE -1."),
+        ("G0 Y1.", "G0 Y2."),
+    ] {
+        assert_eq!(BY_REGISTERS.matches(from).count(), 1, "{from}");
+        let found = by_itself(&BY_REGISTERS.replace(from, to), &["#2 of O2"]);
+        assert_ne!(found.outcome, Outcome::Same, "{from} made {to}");
+        assert!(found.outcome == Outcome::Different || !found.reasons.is_empty());
+    }
+}
+
+/// Where a call may leave it out, the way that it goes then is not the target's.
+#[test]
+fn what_not_every_call_gives_is_tried_without_a_value() {
+    let found = by_itself(BY_REGISTERS, &[]);
+    assert!(found.outcome != Outcome::Same && !found.reasons.is_empty(), "{found:#?}");
+}

@@ -34,6 +34,8 @@ pub(super) struct Marks {
     /// By program: blocks that make a variable 0 that is vacant, and do nothing else.
     zeroed: Vec<BTreeMap<BlockId, Var>>,
     names: Names,
+    /// By program: the locals that every call gives a value.
+    pub always: Vec<BTreeSet<u32>>,
     /// What programs outside the library are given.
     pub outside: Outside,
 }
@@ -60,7 +62,7 @@ impl Marks {
         let mut entries = Entries::of(module, &marks.names);
         let count = module.programs.len();
         (marks.may, marks.refused) = (vec![BTreeSet::new(); count], vec![Vec::new(); count]);
-        marks.zeroed = vec![BTreeMap::new(); count];
+        (marks.zeroed, marks.always) = (vec![BTreeMap::new(); count], vec![BTreeSet::new(); count]);
         let named = entries.named.clone();
         let filled = entries.filled(module, &marks.names, summaries);
         let left = Left { module, summaries, filled: &filled };
@@ -68,6 +70,8 @@ impl Marks {
             let program = &module.programs[index];
             let set = entries.of_program(index);
             let called = entries.is_called(index);
+            let locals = set.iter().filter(|var| called && var.class == Class::Local);
+            marks.always[index] = locals.map(|var| var.number).collect();
             let mut own = Own {
                 index,
                 names: &marks.names,

@@ -2,8 +2,9 @@
 
 use super::known::{Known, Range, opposite};
 use super::{Reader, bare};
+use crate::canon::Sys;
 use crate::dialect::Question;
-use crate::syntax::{BinaryOp, Expr, ExprKind};
+use crate::syntax::{BinaryOp, Expr, ExprKind, Index, VarRef};
 
 impl Reader<'_> {
     /// Takes in that a condition did not hold.
@@ -61,6 +62,16 @@ impl Reader<'_> {
         use BinaryOp::*;
         let (op, [left, right]) = match &e.kind {
             ExprKind::Group(inner) => return self.holds(inner),
+            // Parsers limit how deep expressions nest.
+            ExprKind::Binary(op @ (And | Or), operands) => {
+                let decides = *op == Or;
+                let ways = [&operands[0], &operands[1]].map(|part| self.holds(part));
+                return match ways {
+                    [Some(way), _] | [_, Some(way)] if way == decides => Some(decides),
+                    [Some(_), Some(_)] => Some(!decides),
+                    _ => None,
+                };
+            }
             ExprKind::Binary(op, operands) => (*op, &**operands),
             _ => return None,
         };
@@ -113,5 +124,18 @@ impl Reader<'_> {
             LessEqual if of.high <= 0.0 => Some(true),
             _ => None,
         }
+    }
+
+    pub(super) fn is_system(&self, variable: &VarRef) -> bool {
+        self.state(variable).is_some()
+    }
+
+    pub(super) fn is_alarm(&self, variable: &VarRef) -> bool {
+        self.state(variable) == Some(Sys::Alarm)
+    }
+
+    pub(super) fn state(&self, variable: &VarRef) -> Option<Sys> {
+        let Index::Number(number) = variable.index else { return None };
+        self.control.read_system(&variable.name, Some(number)).map(|(state, ..)| state)
     }
 }

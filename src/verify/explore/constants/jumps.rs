@@ -278,3 +278,9 @@ fn op_of((letter, value): (char, f64), items: &[Item], control: &Control) -> Opt
     };
     control.code(letter, value, &[]).or_else(beside).map(|row| row.op)
 }
+
+/// True for what ends the head of a program, whose literals its operator edits: the first branch, or what one leads to.
+pub fn ends_head(item: &Item) -> bool {
+    use ItemKind::*;
+    matches!(item.kind, If { .. } | Do { .. } | End { .. } | Goto(_) | Branch { .. } | Label(_))
+}

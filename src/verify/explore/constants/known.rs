@@ -2,6 +2,15 @@
 
 use crate::syntax::BinaryOp;
 
+/// What is known of a program from outside its text.
+#[derive(Clone, Copy, Default)]
+pub struct Given<'g> {
+    /// The locals that every call gives a value.
+    pub locals: &'g [String],
+    /// The code of the one unit that the machine is in.
+    pub unit: Option<f64>,
+}
+
 /// What is known of a variable.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Known {

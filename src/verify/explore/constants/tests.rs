@@ -1,4 +1,4 @@
-use super::impossible;
+use super::{Given, impossible};
 use crate::control::{LoadedFile, ProgramRef};
 use crate::dialect::Control;
 use crate::syntax::parse_file;
@@ -17,7 +17,7 @@ fn ways_on(control: &Control, text: &str, as_run: bool) -> Vec<(String, i64)> {
     let parsed = parse_file(text.as_bytes(), control.entry().parse);
     let files = [LoadedFile { name: "a.nc", parsed: &parsed }];
     let side = Side::new(control, control.entry().execute.unwrap(), &files);
-    let found = impossible(&side, ProgramRef { file: 0, program: 0 }, as_run);
+    let found = impossible(&side, ProgramRef { file: 0, program: 0 }, as_run, &Given::default());
     found.into_iter().map(|(span, way)| (text[span.range()].trim().to_owned(), way)).collect()
 }
 

@@ -2,8 +2,9 @@
 
 use super::input::{Input, Inputs};
 use super::read::{inputs_by, labels, set_for};
+use super::reader::Locals;
 use crate::control::ProgramRef;
-use crate::verify::sides::{Side, SymbolMap, class_of};
+use crate::verify::sides::{Arguments, Side, SymbolMap, class_of};
 use std::collections::BTreeSet;
 
 /// The most values of one variable that are tried.
@@ -18,16 +19,20 @@ pub fn inputs_of_both(
     (source, program): (&Side<'_>, ProgramRef),
     (target, there): (&Side<'_>, ProgramRef),
     names: &SymbolMap,
-    called: bool,
+    (called, arguments): (bool, Option<&Arguments>),
 ) -> Inputs {
     // Labels that only one side has tell more than those of both.
     let (ours, theirs) = (labels(source, program), labels(target, there));
     let one_sided = theirs.difference(&ours).chain(ours.difference(&theirs));
     let order: Vec<u32> = one_sided.chain(ours.intersection(&theirs)).copied().take(LABELS).collect();
-    // A target without locals gets what it is called with in registers: nothing can give those to a program by itself.
-    let locals = target.has_locals();
+    // A target without locals gets what it is called with in registers: those must be known to give them to a program by itself.
+    let locals = match (target.has_locals(), arguments) {
+        (true, _) => Locals::All,
+        (false, Some(arguments)) => Locals::These(arguments),
+        (false, None) => Locals::None,
+    };
     let mut found = inputs_by(source, program, locals, &order);
-    let other = inputs_by(target, there, true, &order);
+    let other = inputs_by(target, there, Locals::All, &order);
     let mut places = Vec::new();
     for input in other.variables {
         places.push(add(&mut found, input, (source, target), names, called));

@@ -1,7 +1,7 @@
 //! What a program takes from outside, by its text.
 
 use super::input::Inputs;
-use super::reader::Reader;
+use super::reader::{Locals, Reader};
 use crate::canon::Sys;
 use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// Reads a program that is held against one on the `other` side: only if that has locals can both be given some.
 pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs {
-    let locals = other.has_locals();
+    let locals = if other.has_locals() { Locals::All } else { Locals::None };
     let order: Vec<u32> = labels(side, program).into_iter().take(LABELS).collect();
     set_for(inputs_by(side, program, locals, &order), side, other)
 }
@@ -52,11 +52,11 @@ pub fn labels(side: &Side<'_>, program: ProgramRef) -> BTreeSet<u32> {
     items.filter_map(number).collect()
 }
 
-/// Reads a program whose computed jumps are sent to these labels; `locals` if it may be given some.
-pub fn inputs_by(side: &Side<'_>, program: ProgramRef, locals: bool, order: &[u32]) -> Inputs {
-    let mut reader = Reader::new(side.control);
+/// Reads a program whose computed jumps are sent to these labels, and that may be given these `locals`.
+pub(super) fn inputs_by(side: &Side<'_>, program: ProgramRef, locals: Locals<'_>, order: &[u32]) -> Inputs {
+    let mut reader = Reader::new(side.control, locals);
     for (at, one) in side.links().called_from(program, |_| true).into_iter().enumerate() {
-        reader.own = at == 0 && locals;
+        reader.own = if at == 0 { locals } else { Locals::None };
         reader.labels =
             if at == 0 { order.to_vec() } else { labels(side, one).into_iter().take(LABELS).collect() };
         side.text(one).iter().for_each(|block| reader.items(&block.items, at == 0));

@@ -8,17 +8,48 @@ use crate::syntax::{
     BinaryOp, Expr, ExprKind, Index, Item, ItemKind, TableRow, Target, TestSubject, VarRef, Word,
     for_each_expr,
 };
-use crate::verify::sides::{class_of, name_of};
+use crate::verify::sides::{Arguments, class_of, name_of};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Assignments that a number is followed back through, at the most.
 const STEPS_BACK: usize = 4;
 
+/// The locals of a program that it may be given by itself.
+#[derive(Clone, Copy)]
+pub(super) enum Locals<'c> {
+    /// None of them: what it is called with stands in registers that nobody knows.
+    None,
+    /// All that it reads.
+    All,
+    /// Those whose registers are known.
+    These(&'c Arguments),
+}
+
+impl Locals<'_> {
+    fn has(self, local: &str) -> bool {
+        match self {
+            Self::None => false,
+            Self::All => true,
+            Self::These(arguments) => arguments.has(local),
+        }
+    }
+
+    /// True for a variable that may have no value: any that is no argument, and an argument that calls may leave out.
+    fn may_be_vacant(self, name: &str) -> bool {
+        match self {
+            Self::These(arguments) => !arguments.has(name) || arguments.may_be_vacant(name),
+            _ => true,
+        }
+    }
+}
+
 /// Reads the items of programs, one after the other.
 pub(super) struct Reader<'c> {
     control: &'c Control,
-    /// True in the program itself, false in those that it calls: their locals are their own.
-    pub(super) own: bool,
+    /// The locals that may be given, in the program itself; none in those that it calls: their locals are their own.
+    pub(super) own: Locals<'c>,
+    /// The same, in whichever program it is.
+    given: Locals<'c>,
     pairs: Vec<(String, String)>,
     written: BTreeSet<String>,
     order: Vec<String>,
@@ -39,10 +70,11 @@ pub(super) struct Reader<'c> {
 }
 
 impl<'c> Reader<'c> {
-    pub(super) fn new(control: &'c Control) -> Self {
+    pub(super) fn new(control: &'c Control, given: Locals<'c>) -> Self {
         Self {
             control,
-            own: true,
+            own: given,
+            given,
             pairs: Vec::new(),
             written: BTreeSet::new(),
             order: Vec::new(),
@@ -179,7 +211,8 @@ impl<'c> Reader<'c> {
         if let Some(cell) = self.cell(variable) {
             self.cells.entry(cell).or_default();
         } else if let Some(name) = name_of(variable, self.control)
-            && class_of(self.control, &name).is_some_and(|class| self.own || class.class != "local")
+            && class_of(self.control, &name)
+                .is_some_and(|class| class.class != "local" || self.own.has(&name))
             && !self.written.contains(&name)
             && !self.order.contains(&name)
         {
@@ -271,9 +304,10 @@ impl<'c> Reader<'c> {
             values.truncate(40);
             values
         };
-        let control = self.control;
+        let (control, own) = (self.control, self.given);
         let mut input = |name: String| Input {
-            nullable: class_of(control, &name).is_some_and(|class| class.nullable),
+            nullable: class_of(control, &name).is_some_and(|class| class.nullable)
+                && own.may_be_vacant(&name),
             values: tidy(self.compared.remove(&name).unwrap_or_default()),
             name,
             theirs: false,
