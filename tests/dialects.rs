@@ -141,7 +141,7 @@ fn so_many_rows_are_unconfirmed() {
         counts
     };
     let counts = ["fanuc", "haas", "fadal", "cc100"].map(of);
-    assert_eq!(counts, [[402, 457, 81, 35], [624, 165, 80, 35], [284, 24, 101, 57], [252, 10, 63, 43]]);
+    assert_eq!(counts, [[406, 459, 75, 35], [624, 165, 80, 35], [284, 24, 101, 57], [252, 10, 63, 43]]);
 }
 
 fn control(name: &str) -> Control {
@@ -714,6 +714,15 @@ fn the_kind_of_offset_memory_says_what_its_numbers_are() {
     means(&shared, "G10 L11 P1", Op::WriteOffset);
     means(&shared, "G10 L1 P1", Op::WriteOffset);
     means(&memory("C", 0), "G10 L10 P1", Op::WriteLength);
+    // Mitsubishi M700V/M70V programming manual, p. 236, memory II.
+    for (code, op) in [
+        ("G10 L10 P1", Op::WriteLength),
+        ("G10 L11 P1", Op::WriteLengthWear),
+        ("G10 L12 P1", Op::WriteRadius),
+        ("G10 L13 P1", Op::WriteRadiusWear),
+    ] {
+        means(&memory("M", 0), code, op);
+    }
     let states = |control: &Control| {
         [2001, 2201, 2401, 2601]
             .map(|number| control.read_system("#", Some(number)).map(|(state, ..)| state.name()))
