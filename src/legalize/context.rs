@@ -273,7 +273,7 @@ impl<'a> Context<'a> {
     ) {
         let control = if side == Side::Source { self.source } else { self.target };
         let finding = Diagnostic::new(control.told_as(fact), span, what).with_fact(fact);
-        self.add_once(program, fact, finding.with_help(control.to_settle(fact, side)));
+        self.add_once(program, &format!("{side} {fact}"), finding.with_help(control.to_settle(fact, side)));
     }
 
     /// Says, once a program, that it rests on how the source behaves, where no maker's text confirms that.

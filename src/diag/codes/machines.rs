@@ -30,6 +30,11 @@ Say it in that profile: `units = \"inch\"` or `units = \"metric\"`. Every progra
 
     "0206" StartsStated Note "begins in what the machine's profile says"
 "The program does not name all modes that count in it. It is run in what the machine begins in, as the machine's profile says under `[start]`. The codes are written at the head of the conversion, but for those that the target begins in too."
+
+    "0207" MistakeOnly Note "what a mistake comes to is known of one control only"
+"The program computes something that has no result for some values: a division by 0, the root of a negative number, an arc by its radius that ends where it starts. Of one of the two controls it is known what comes of it: an alarm, or, of such an arc, no move. Of the other no source says it. No program is meant to do so, and both controls do the same in every run without such a mistake, so nobody is asked.
+
+There is nothing to do as a rule. Where the values come from an operator, test them before, and stop with an alarm of your own. A profile may say what the control does, as in `divide.by.zero = \"alarm\"` under `[behaviours]`; the note is gone then."
         }
     };
 }

@@ -5,6 +5,7 @@ pub(in crate::legalize) mod changes;
 pub(in crate::legalize) mod cutter_tables;
 pub(in crate::legalize) mod facts;
 pub(in crate::legalize) mod machine_places;
+mod mistakes;
 pub(in crate::legalize) mod runtime;
 pub(in crate::legalize) mod shop;
 pub(in crate::legalize) mod top_speed;

@@ -4,9 +4,10 @@
 //! cycle's planes may be used in the other mode of coordinates than they were given in. The conversion takes both
 //! controls to do the same then. Where no source says what one of them does, a person has to look.
 
+use super::mistakes::{closed_arc, no_result};
 use crate::canon::{Func, Group, Op, Pause, Role, Running, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Machine, Question, Side, matters};
+use crate::dialect::{Control, Machine, Question};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::analysis::{Assigned, Constant};
@@ -80,7 +81,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     {
                         both(context, index, span, Question::CyclePlanesFrozen);
                     }
-                    arc(nc, index, span, context);
+                    closed_arc(nc, index, span, context);
                     let ends = |op: Op| op == Op::CycleOff || op.is_cycle() && !op.is_tap();
                     turning = standing.turns(nc) || turning && !nc.ops().any(ends);
                     if turning {
@@ -148,10 +149,10 @@ fn both(context: &mut Context<'_>, program: usize, span: Span, question: Questio
 fn value(e: &Expr, index: usize, span: Span, zero: &dyn Fn(&Expr) -> bool, context: &mut Context<'_>) {
     match e {
         Expr::Binary(BinOp::Div, operands) if zero(&operands[1]) => {
-            both(context, index, span, Question::DivideByZero);
+            no_result(context, index, span, Question::DivideByZero);
         }
         Expr::Call(Func::Sqrt, arguments) if !arguments.iter().all(never_negative) => {
-            both(context, index, span, Question::SqrtOfNegative);
+            no_result(context, index, span, Question::SqrtOfNegative);
         }
         Expr::System(state, subscripts)
             if subscripts.iter().any(|e| e.constant().is_none())
@@ -367,22 +368,4 @@ fn mixes(nc: &Nc, state: &Modal) -> bool {
     let incremental = nc.has(Op::Incremental)
         || (!nc.has(Op::Absolute) && state.op(Group::Distance) == Some(Op::Incremental));
     axes && goes_on && incremental && state.op(Group::Cycle).is_some_and(Op::is_cycle)
-}
-
-/// An arc by its radius whose end may be its start.
-fn arc(nc: &Nc, index: usize, span: Span, context: &mut Context<'_>) {
-    let computed = |item: &NcItem| match item {
-        NcItem::Word(role, value) => {
-            (role.is_axis() || *role == Role::ArcRadius) && value.constant().is_none()
-        }
-        _ => false,
-    };
-    if nc.word(Role::ArcRadius).is_some() && nc.items.iter().any(computed) {
-        let name = "machine:arc.radius.full.circle";
-        let sides = [(Side::Source, context.source), (Side::Target, context.target)];
-        for side in sides.iter().filter(|(_, control)| !control.has_tried(name)).map(|(side, _)| *side) {
-            let what = format!("no manual confirms '{name}': {}", matters::meaning(name).unwrap_or_default());
-            context.unconfirmed(index, side, span, name, what);
-        }
-    }
 }
