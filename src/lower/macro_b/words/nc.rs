@@ -1,6 +1,7 @@
 //! Blocks of NC words.
 
 use super::roles::BlockCodes;
+use super::unknown::{Unknown, is_of_mode};
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Question, beside_letter};
@@ -52,9 +53,16 @@ impl<'a> Lowering<'a> {
             self.check_turning(&nc, site.span);
             return self.builder.push(StmtKind::Nc(nc), site.clone());
         }
-        let Some(codes) = self.block_codes(words) else {
-            return self.builder.push(StmtKind::Comment, site.clone());
+        let (codes, unknown) = self.block_codes(words);
+        let kept: Words<'a> = match unknown {
+            Unknown::None => Words::new(),
+            Unknown::Builders => words.iter().filter(|(word, _)| is_of_mode(word)).copied().collect(),
+            Unknown::Other => return self.builder.push(StmtKind::Comment, site.clone()),
         };
+        if unknown == Unknown::Builders && codes.is_empty() {
+            return self.builder.push(StmtKind::Comment, site.clone());
+        }
+        let words = if unknown == Unknown::Builders { &kept } else { words };
         self.check_machine(words, &codes);
         self.check_codes_of_cycle(words, &codes, site.span);
         self.check_told_once(words, &codes);
@@ -171,26 +179,6 @@ impl<'a> Lowering<'a> {
             return self.builder.push(StmtKind::Sync, site.clone());
         }
         self.builder.push(StmtKind::Nc(nc), site.clone());
-    }
-
-    /// The codes of a block; none if one has no meaning: then that of its words is not known either.
-    fn block_codes(&mut self, words: &Words<'a>) -> Option<BlockCodes<'a>> {
-        let mut codes = BlockCodes::new();
-        let mut known = true;
-        for (word, span) in words {
-            let Some(id) = self.constant_code(word) else { continue };
-            match self.row_beside(id, words) {
-                Some(row) => {
-                    self.rest_on_code(id, row, *span);
-                    codes.push((id, row));
-                }
-                None => {
-                    known = false;
-                    self.unknown_code(id, words, *span);
-                }
-            }
-        }
-        known.then_some(codes)
     }
 
     fn operation(

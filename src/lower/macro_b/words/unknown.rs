@@ -1,5 +1,6 @@
 //! Codes that the table of the control does not have.
 
+use super::roles::BlockCodes;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Beside, CodeHead, Machine};
@@ -11,7 +12,46 @@ use crate::syntax::{Block, ItemKind, Word};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
-impl Lowering<'_> {
+/// The codes of a block without a meaning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unknown {
+    /// All have one.
+    None,
+    /// Codes of the machine's builder alone: the program is refused until it is said what they do, and is looked at with the
+    /// modes that the block sets, so that nothing is asked which they settle.
+    Builders,
+    /// Others.
+    Other,
+}
+
+/// True for a code, and for a word that is part of a mode or a move.
+pub(super) fn is_of_mode(word: &Word) -> bool {
+    !word.comma && "GMXYZABCHDTFS".contains(word.letter)
+}
+
+impl<'a> Lowering<'a> {
+    /// The codes of a block that have a meaning, and what those are that have none: the meaning of the block's words is not
+    /// known then either, but for what a code of the builder leaves alone.
+    pub(super) fn block_codes(&mut self, words: &Words<'a>) -> (BlockCodes<'a>, Unknown) {
+        let mut codes = BlockCodes::new();
+        let mut unknown = Unknown::None;
+        for (word, span) in words {
+            let Some(id) = self.constant_code(word) else { continue };
+            match self.row_beside(id, words) {
+                Some(row) => {
+                    self.rest_on_code(id, row, *span);
+                    codes.push((id, row));
+                }
+                None => {
+                    let of_builder = word.letter == 'M' && unknown != Unknown::Other;
+                    unknown = if of_builder { Unknown::Builders } else { Unknown::Other };
+                    self.unknown_code(id, words, *span);
+                }
+            }
+        }
+        (codes, unknown)
+    }
+
     /// Refuses a code that the table does not have, or not beside the words of its block.
     pub fn unknown_code(&mut self, id: CodeId, words: &Words<'_>, span: Span) {
         let Some(code) = self.codes.get(id) else { return };
