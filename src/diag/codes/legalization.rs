@@ -73,6 +73,11 @@ Nothing needs to be done. To move such a group of cuts on the target, change the
 "The program asks whether an argument was given, and every call in the library gives it. Calls of the target give no arguments: they set registers, which are never without a value. So what the program does without the argument (a value of its own, an alarm) is left out.
 
 Nothing needs to be done for the programs of the library. Who writes a new call for the target must set each of these registers before it. The head of the converted program says which they are. To keep the check, convert the library together with a program that leaves the argument out."
+
+    "0416" LeftByOthers Note "read after a program that is not in the library"
+"A variable keeps its value over power-off on one control and loses it on the other. The program reads it before it writes it, but only after it called a program that is not in the library, as a probing macro that stands in both machines. The value is taken for the result of that program, so what an earlier run left there does not count.
+
+There is nothing to do where the program called sets the variable. Where a value from before power-off is meant, write \"power.off.values\" = \"used\" under [behaviours] in the profile of the source's machine: each program that reads such a variable first is for review then."
         }
     };
 }

@@ -4,11 +4,15 @@
 //! difference can be seen: a counter kept in `#100` starts anew on a control that clears it, and a test for vacancy after
 //! power-on never comes true on one that keeps it. Whether the shop needs such values is asked once, and the profile of the
 //! source says it. If it does, each program is for review.
+//!
+//! What is read after a call of a program that is not in the library, and not before one, is taken for what that program leaves,
+//! where no program of the library writes it: a note says so, and nobody is asked. Counter-example: a counter of parts,
+//! `#100=#100+1`, after a probe was switched on by such a program.
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
-use crate::ir::analysis::Universe;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
+use crate::ir::analysis::{Universe, Vars};
 use crate::ir::{Callee, Class, Module, TermKind, Var};
 use crate::legalize::Context;
 use crate::legalize::calls::standing;
@@ -59,12 +63,15 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     lives.sort_by(|(.., a), (.., b)| a.cmp(b));
     let universe = Universe::new(lives.iter().map(|(var, ..)| *var).collect());
     let upward_exposed = UpwardExposed::among(module, universe.clone());
-    let before = cut(module, context).map(|cut| UpwardExposed::among(&cut, universe));
+    let before = cut(module).map(|cut| UpwardExposed::among(&cut, universe));
+    let ours = written(module);
     let asked = context.source.to_settle(QUESTION.fact(), Side::Source);
     let of = |index: usize, (kept, after): (bool, bool)| -> Vec<usize> {
         let is_at_entry = upward_exposed.at_entry_of(index);
         let is_before = before.as_ref().map(|before| before.at_entry_of(index));
-        let is_after = |var: Var| is_before.as_ref().is_some_and(|is_before| !is_before(var));
+        let is_after = |var: Var| {
+            is_before.as_ref().is_some_and(|is_before| !is_before(var)) && (is_needed || !ours.contains(var))
+        };
         let shown = lives.iter().enumerate();
         let shown =
             shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_after(*var) == after);
@@ -87,6 +94,13 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
             let what = said.entry(shown).or_insert_with_key(|shown| {
                 told(&shown.iter().map(|at| &lives[*at].2).collect::<Vec<_>>(), kept).into()
             });
+            if after && !is_needed {
+                let what = format!(
+                    "{what}: it is taken for what the programs leave there that are not in the library"
+                );
+                context.add(index, Diagnostic::new(Code::LeftByOthers, span, what));
+                continue;
+            }
             let finding = Diagnostic::new(Code::OtherRetention, span, what.clone());
             let finding = match is_needed {
                 // After a program that stands in the machine it mostly is what that one left.
@@ -99,19 +113,35 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     }
 }
 
-/// The library as it is before programs that stand in the machine are called; none where none is.
-fn cut(module: &Module, context: &Context<'_>) -> Option<Module> {
-    let callers = standing::callers(module, context);
-    let mut cut = (!callers.is_empty()).then(|| module.clone())?;
-    for (index, called) in callers {
-        for block in cut.programs.get_mut(index).into_iter().flat_map(|program| &mut program.blocks) {
-            let stands = |callee: &Callee| matches!(callee, Callee::Program(ProgramName::Number(n)) if called.contains(n));
-            if matches!(&block.term.kind, TermKind::Call { call, .. } if stands(&call.callee)) {
-                block.term.kind = TermKind::Stray;
-            }
+/// The library as it is before programs are called that are no part of it; none where none is.
+fn cut(module: &Module) -> Option<Module> {
+    let known = standing::known(module);
+    let is_outside = |kind: &TermKind| match kind {
+        TermKind::Call { call, .. } => {
+            matches!(&call.callee, Callee::Program(name @ ProgramName::Number(_)) if !known.contains(name))
+        }
+        _ => false,
+    };
+    let any =
+        module.programs.iter().flat_map(|program| &program.blocks).any(|block| is_outside(&block.term.kind));
+    let mut cut = any.then(|| module.clone())?;
+    for block in cut.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+        if is_outside(&block.term.kind) {
+            block.term.kind = TermKind::Stray;
         }
     }
     Some(cut)
+}
+
+/// What the programs of the library write themselves.
+fn written(module: &Module) -> Vars {
+    let mut ours = Vars::default();
+    for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts) {
+        if let Some(place) = stmt.kind.target() {
+            ours.write(place);
+        }
+    }
+    ours
 }
 
 /// The sentence about registers, in order of their numbers; true for those that the source keeps.
