@@ -6,14 +6,14 @@
 //! source says it. If it does, each program is for review.
 //!
 //! What is read after a call of a program that is not in the library, and not before one, is taken for what that program leaves,
-//! where no program of the library writes it: a note says so, and nobody is asked. Counter-example: a counter of parts,
-//! `#100=#100+1`, after a probe was switched on by such a program.
+//! where no program of the library writes it by its number, and none that runs with it by a computed one: a note says so, and
+//! nobody is asked. Counter-example: a counter of parts, `#100=#100+1`, after a probe was switched on by such a program.
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::analysis::{Universe, Vars};
-use crate::ir::{Callee, Class, Module, TermKind, Var};
+use crate::ir::{Callee, Class, Module, Place, TermKind, Var};
 use crate::legalize::Context;
 use crate::legalize::calls::standing;
 use crate::legalize::registers::map::{Register, Registers};
@@ -64,20 +64,22 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     let universe = Universe::new(lives.iter().map(|(var, ..)| *var).collect());
     let upward_exposed = UpwardExposed::among(module, universe.clone());
     let before = cut(module).map(|cut| UpwardExposed::among(&cut, universe));
-    let ours = written(module);
+    let roots = roots(module);
+    // Where nothing outside is called, nothing comes after it.
+    let ours = if before.is_some() { written(module, &roots, context) } else { HashMap::new() };
     let asked = context.source.to_settle(QUESTION.fact(), Side::Source);
     let of = |index: usize, (kept, after): (bool, bool)| -> Vec<usize> {
         let is_at_entry = upward_exposed.at_entry_of(index);
         let is_before = before.as_ref().map(|before| before.at_entry_of(index));
+        let is_ours = |var: Var| ours.get(&index).is_some_and(|ours| ours.contains(var));
         let is_after = |var: Var| {
-            is_before.as_ref().is_some_and(|is_before| !is_before(var)) && (is_needed || !ours.contains(var))
+            is_before.as_ref().is_some_and(|is_before| !is_before(var)) && (is_needed || !is_ours(var))
         };
         let shown = lives.iter().enumerate();
         let shown =
             shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_after(*var) == after);
         shown.map(|(at, _)| at).collect()
     };
-    let roots = roots(module);
     let ways = [(true, false), (false, false), (true, true), (false, true)];
     // One question of the library names all of its variables.
     let all = ways.map(|way| roots.iter().flat_map(|root| of(*root, way)).collect::<BTreeSet<usize>>());
@@ -133,15 +135,30 @@ fn cut(module: &Module) -> Option<Module> {
     Some(cut)
 }
 
-/// What the programs of the library write themselves.
-fn written(module: &Module) -> Vars {
-    let mut ours = Vars::default();
-    for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts) {
-        if let Some(place) = stmt.kind.target() {
-            ours.write(place);
-        }
+/// By root: what the library writes by its number, and what is written by a computed one where that root runs.
+fn written(module: &Module, roots: &[usize], context: &Context<'_>) -> HashMap<usize, Vars> {
+    let places = |index: usize| {
+        let blocks = module.programs.get(index).into_iter().flat_map(|program| &program.blocks);
+        blocks.flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.target())
+    };
+    let mut everywhere = Vars::default();
+    let numbered = (0..module.programs.len()).flat_map(places).filter(|place| matches!(place, Place::Var(_)));
+    numbered.for_each(|place| everywhere.write(place));
+    let mut callees: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (caller, callee) in context.called(module).pairs(module) {
+        callees.entry(caller).or_default().push(callee);
     }
-    ours
+    let of = |root: &usize| {
+        let (mut open, mut found, mut ours) = (vec![*root], BTreeSet::from([*root]), everywhere.clone());
+        while let Some(at) = open.pop() {
+            places(at).for_each(|place| ours.write(place));
+            open.extend(
+                callees.get(&at).into_iter().flatten().copied().filter(|callee| found.insert(*callee)),
+            );
+        }
+        (*root, ours)
+    };
+    roots.iter().map(of).collect()
 }
 
 /// The sentence about registers, in order of their numbers; true for those that the source keeps.
