@@ -1,8 +1,8 @@
 //! Which statements may come while something is in force that another statement began.
 //!
-//! Over-approximates: what a called program begins may be in force after the call, what is in force at a call may be in
-//! force in all that is called, and only a statement of the same program ends it. So a program that is called again
-//! finds what it began itself.
+//! Over-approximates: what a called program begins and does not end on each way to its return may be in force after the call, what
+//! is in force at a call may be in force in all that is called, and only a statement of the same program ends it. So a program
+//! that is called again finds what it began itself. Counter-example: an end that a block skip may pass over ends nothing.
 
 use super::block_calls::calls_of;
 use crate::canon::{Group, Op};
@@ -11,6 +11,7 @@ use crate::ir::analysis::{CallGraph, Cfg, reachable};
 use crate::ir::{Block, BlockId, Call, Callee, Module, Program, Stmt, StmtKind, TermKind};
 use crate::syntax::ProgramName;
 use crate::text::Span;
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Calls `found` with every statement, by program, that may come after one that `sets` and before one that `ends`.
@@ -64,8 +65,9 @@ fn walk(
             StmtKind::ModalCall(call) => library.begins(call),
             _ => false,
         };
-        sets(stmt) || modal || (on && !ends(stmt))
+        sets(stmt) || modal || (on && !(ends(stmt) && stmt.site.skip.is_none()))
     };
+    library.settle(module, &step);
     let entries = library.entries(module, entered, &step);
     for (index, program) in module.programs.iter().enumerate() {
         let starts = library.starts(index, program, entries[index], &step);
@@ -86,6 +88,8 @@ struct Library<'m> {
     any: bool,
     /// By program, whether it or what it calls begins it.
     within: Vec<bool>,
+    /// By program, whether it may return with it in force where it was entered without.
+    leaves: Vec<Cell<bool>>,
     /// Programs by name.
     named: BTreeMap<&'m ProgramName, Vec<usize>>,
 }
@@ -99,7 +103,8 @@ impl<'m> Library<'m> {
             program.name.iter().for_each(|name| named.entry(name).or_default().push(index));
         }
         let any = within.contains(&true);
-        let mut library = Self { any, within, named };
+        let leaves = vec![Cell::new(false); within.len()];
+        let mut library = Self { any, within, leaves, named };
         if any {
             library.close(module);
         }
@@ -121,6 +126,28 @@ impl<'m> Library<'m> {
             callees[index].extend(chained.map(|at| (*at, false)));
         }
         CallGraph::new(callees).bottom_up(&mut self.within, |mine, callee, _| mine.join(callee));
+    }
+
+    /// Finds which programs return with it in force: more and more of them, until none is new.
+    fn settle(&self, module: &Module, step: &dyn Fn(&Stmt, bool) -> bool) {
+        let leaves = |index: usize, program: &Program| {
+            let starts = self.starts(index, program, false, step);
+            let mut ends =
+                program.blocks.iter().zip(starts).filter(|(block, _)| may_return(&block.term.kind));
+            ends.any(|(block, start)| {
+                let chained = self.chained(block).iter().any(|next| self.leaves[*next].get());
+                chained || block.stmts.iter().fold(start, |on, stmt| step(stmt, on))
+            })
+        };
+        let mut is_new = true;
+        while std::mem::take(&mut is_new) {
+            for (index, program) in module.programs.iter().enumerate() {
+                if self.within[index] && !self.leaves[index].get() && leaves(index, program) {
+                    self.leaves[index].set(true);
+                    is_new = true;
+                }
+            }
+        }
     }
 
     /// The programs that a block goes on in for good.
@@ -151,12 +178,13 @@ impl<'m> Library<'m> {
         named.chain(blocks().flat_map(|block| self.chained(block))).copied().collect()
     }
 
-    /// True where something that a call runs may begin it. Of a subroutine of the same program its blocks tell.
+    /// True where something that a call runs may leave it in force. Of a subroutine of the same program its blocks tell.
     fn begins(&self, call: &Call) -> bool {
         match self.callees(call) {
             Callees::Own => false,
-            Callees::Any | Callees::Outside => self.any,
-            Callees::These(callees) => callees.iter().any(|callee| self.within[*callee]),
+            Callees::Any => self.leaves.iter().any(Cell::get),
+            Callees::Outside => self.any,
+            Callees::These(callees) => callees.iter().any(|callee| self.leaves[*callee].get()),
         }
     }
 
@@ -259,6 +287,18 @@ enum Callees<'a> {
     Outside,
     /// These programs.
     These(&'a [usize]),
+}
+
+/// True for the end of a block from which control may go back to a caller.
+fn may_return(kind: &TermKind) -> bool {
+    !matches!(
+        kind,
+        TermKind::Jump(_)
+            | TermKind::Branch { .. }
+            | TermKind::Computed { .. }
+            | TermKind::Call { .. }
+            | TermKind::End { .. }
+    )
 }
 
 /// True for a program that may return to a caller, and not from a subroutine of its own alone.

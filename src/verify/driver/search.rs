@@ -118,9 +118,9 @@ impl Verifier<'_, '_> {
         }
         if endless >= ENDLESS {
             starts.retain(|start| start.scenario.steps <= ENDLESS_STEPS);
-            let ended = self.telling.iter().map(|(scenario, theirs)| Circumstances {
-                scenario: Scenario { steps: ENDLESS_STEPS, ..scenario.clone() },
-                theirs: theirs.clone(),
+            let ended = self.telling.iter().map(|(scenario, theirs)| {
+                let scenario = Scenario { steps: ENDLESS_STEPS, ..scenario.clone() };
+                Circumstances::new(scenario, theirs.clone())
             });
             starts.extend(ended);
         }
