@@ -3,8 +3,10 @@
 use super::entry::Entry;
 use super::table::Table;
 use crate::canon::{CycleSetting, Group, Op, Sys};
+use crate::dialect::OneTable;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// How many axes a position has: X Y Z A B C U V W E.
 pub const AXES: usize = 10;
@@ -40,6 +42,9 @@ pub struct Scenario {
     pub external_shift: Axes,
     /// The tool table: offset values by number.
     pub tools: Table<Tool>,
+    /// How the rows stand in both tables, where one machine has one number a row for lengths and radii; none where neither has.
+    #[serde(skip)]
+    pub one_table: Option<Arc<SharedRows>>,
     /// The tool in the spindle at the start.
     pub tool: u32,
     /// The first and second reference position, machine coordinates.
@@ -156,6 +161,16 @@ pub struct StateValue {
     pub value: f64,
 }
 
+/// The rows of a table that has one number for lengths and radii, and of one that holds them apart: the number of a row is the
+/// length and the radius of that row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SharedRows {
+    /// By what the number is divided to be the radius: 1, or 2 where it is a diameter.
+    pub per: f64,
+    /// Which rows hold lengths and which radii, as far as the profile says it.
+    pub rows: OneTable,
+}
+
 impl Scenario {
     /// The four reference positions, in order.
     pub fn reference_positions(&self) -> [Axes; 4] {
@@ -183,6 +198,7 @@ impl Default for Scenario {
             work_offsets: Table::default(),
             external_shift: [0.0; AXES],
             tools: Table::default(),
+            one_table: None,
             tool: 0,
             references: [[0.0; AXES]; 2],
             more_references: [[0.0; AXES]; 2],

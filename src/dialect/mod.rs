@@ -27,6 +27,7 @@ mod matrix;
 pub mod matters;
 mod meeting;
 mod model;
+mod one_table;
 mod origin;
 mod overlay;
 mod overlay_settings;
@@ -70,6 +71,7 @@ pub use load::load;
 pub use matrix::matrix;
 pub use meeting::NoMeeting;
 pub use model::*;
+pub use one_table::{OneTable, RowKind, TABLE_ROWS};
 pub use origin::{Mark, Origin};
 pub use page::page;
 pub use profile::{

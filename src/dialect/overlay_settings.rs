@@ -3,7 +3,7 @@
 use super::control::numbered;
 use super::overlay::{Overlay, conditions};
 use super::reader::closest;
-use super::{BareLength, Behaviour, Dialect, Mark, Origin, Question, Setting};
+use super::{BareLength, Behaviour, Dialect, Mark, OneTable, Origin, Question, Setting, TABLE_ROWS};
 use crate::canon::Op;
 use std::collections::BTreeMap;
 
@@ -26,6 +26,7 @@ impl Overlay {
                 })
             })
             .collect();
+        let mut stated_at = BTreeMap::new();
         for (place, name, value) in given {
             let known =
                 dialect.settings.iter().find(|row| row.covers(&name) || row.also.as_ref() == Some(&name));
@@ -44,6 +45,7 @@ impl Overlay {
                     self.fault(&place, format!("'{value}' is not a value of {name}"), help);
                 }
                 Some(_) => {
+                    stated_at.insert(name.clone(), place);
                     self.stated.insert(name.clone());
                     values.insert(name, value);
                 }
@@ -55,6 +57,13 @@ impl Overlay {
                     self.fault(&place, format!("{} has no setting '{name}'", dialect.title), help);
                 }
             }
+        }
+        let rows = TABLE_ROWS.map(|name| values.get(name).map(String::as_str));
+        if let Err((at, help)) = OneTable::read(rows)
+            && let Some(place) = stated_at.get(TABLE_ROWS[at])
+        {
+            let what = format!("these are no rows of a table of offsets for {}", TABLE_ROWS[at]);
+            self.fault(place, what, help.to_owned());
         }
         values
     }

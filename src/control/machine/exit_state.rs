@@ -87,7 +87,7 @@ impl Machine {
             external_is_local: self.rules.local_is_external.peek(),
             work_offsets: self.work_offsets.clone(),
             external: self.frame.external,
-            tools: self.tools.clone(),
+            tools: self.compared_tools(),
         }
     }
 }

@@ -20,6 +20,7 @@ mod inverse;
 mod lathe;
 mod motion;
 mod offsets;
+mod one_table;
 mod outside;
 mod pauses;
 mod pockets;
@@ -44,7 +45,7 @@ pub use outside::LEFT;
 pub(super) use rules::Rules;
 
 use super::outcome::Stop;
-use super::scenario::{Axes, Probe, Scenario, Tool};
+use super::scenario::{Axes, Probe, Scenario, SharedRows, Tool};
 use super::table::Table;
 use super::trace::{FeedMode, Plane, Side, Spindle, Trace, Zero};
 use crate::canon::{Group, Op, Pause, Role, Sys};
@@ -105,6 +106,7 @@ pub struct Machine {
     tool_ready: f64,
     tool: f64,
     tools: Table<Tool>,
+    one_table: Option<Arc<SharedRows>>,
     length_op: Op,
     length_offset: u32,
     /// True once the number of a length was named.
@@ -176,7 +178,8 @@ impl Machine {
             unsure_running: [None; 2],
             tool_ready: f64::from(scenario.tool),
             tool: f64::from(scenario.tool),
-            tools: scenario.tools.clone(),
+            tools: one_table::tools(scenario),
+            one_table: scenario.one_table.clone(),
             length_op: Op::LengthOff,
             length_offset: 0,
             length_named: false,

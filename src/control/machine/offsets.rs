@@ -78,7 +78,8 @@ impl Machine {
             // Where length and radius share a table, the one value is kept as a length.
             _ => tool.length = value,
         }
-        trace.push(EventKind::Write { state, subscripts: vec![number], value });
+        let (written, amount) = self.apart(state, number, value);
+        trace.push(EventKind::Write { state: written, subscripts: vec![number], value: amount });
         if number == self.length_offset && self.length_value() != self.frame.length {
             // Nobody can tell before something is placed by it, if it is not named anew until then.
             self.stale_length = true;

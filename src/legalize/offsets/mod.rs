@@ -15,6 +15,7 @@ pub(in crate::legalize) mod named_lengths;
 pub(in crate::legalize) mod no_shifts;
 pub(in crate::legalize) mod offset_numbers;
 pub(in crate::legalize) mod offset_rows;
+pub(in crate::legalize) mod one_table;
 pub(in crate::legalize) mod position_length;
 pub(in crate::legalize) mod radius_words;
 pub(in crate::legalize) mod set_position;

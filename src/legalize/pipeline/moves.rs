@@ -17,8 +17,8 @@ use crate::legalize::moves::{
 };
 use crate::legalize::offsets::{
     active_offsets, external, folded_shifts, kept_length, kept_radius, later_lengths, left_shifts,
-    length_radius, named_lengths, no_shifts, radius_words, set_position, table_writes, tool_lengths,
-    written_tools,
+    length_radius, named_lengths, no_shifts, one_table, radius_words, set_position, table_writes,
+    tool_lengths, written_tools,
 };
 
 /// Where computed codes and jumps are written out.
@@ -128,9 +128,15 @@ pub(super) const MOVES: &[Pass] = &[
         .changes_flow(),
     Pass::edits("word-rounds", "ROUND in words becomes arithmetic", word_rounds::run)
         .when(word_rounds::concerns),
+    Pass::edits(
+        "one-table",
+        "rows of one number become lengths or radii, where the target holds them apart",
+        one_table::run,
+    )
+    .when(one_table::concerns),
     Pass::rewrites("table-writes", "offset tables are written as state", table_writes::run)
         .when(table_writes::concerns)
-        .needs(&["external", "increments"])
+        .needs(&["external", "increments", "one-table"])
         .changes_flow(),
     Pass::reports(
         "active-offsets",

@@ -170,6 +170,11 @@ impl Proposals {
         }
         scenario.peck_clearance = self.inputs.peck_clearance.unwrap_or(scenario.peck_clearance);
         self.tables(&mut scenario, count);
+        scenario.one_table.clone_from(&self.inputs.one_table);
+        // The number of a row is now as large as a length, now as a radius.
+        if let Some(shared) = scenario.one_table.as_ref().filter(|_| count % 2 == 1) {
+            scenario.tools.values_mut().for_each(|tool| tool.length = tool.radius * shared.per);
+        }
         // The machine has those rotary axes that its programs name.
         for axis in (3..6).filter(|axis| self.inputs.turns_by_sign || !self.inputs.rotary[axis - 3]) {
             scenario.start[axis] = 0.0;

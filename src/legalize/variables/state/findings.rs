@@ -5,6 +5,7 @@ use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
 use crate::legalize::Context;
+use crate::legalize::offsets::one_table;
 use crate::legalize::variables::signals::is_signal;
 use crate::text::Span;
 
@@ -57,6 +58,7 @@ impl Finding {
                             name that the source's profile has";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
             }
+            Finding::Missing(Sys::ToolOffset, ..) => one_table::report_computed(index, span, context),
             Finding::Missing(state, note, setting) => {
                 let what = format!("{title} has no variable for '{state}' ({})", state.meaning().trim());
                 let finding = Diagnostic::new(Code::NoEquivalent, span, what);

@@ -1,7 +1,9 @@
 //! What programs take from outside: variables, state of the machine, answers and switches.
 
 use crate::canon::Sys;
+use crate::control::scenario::SharedRows;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// What a program takes from outside.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +36,8 @@ pub struct Inputs {
     pub unworn: bool,
     /// The same of their lengths.
     pub unworn_lengths: bool,
+    /// How rows stand in both tables, where one machine has one number a row for lengths and radii.
+    pub one_table: Option<Arc<SharedRows>>,
     /// True where Z of all work offsets is 0, as the source's profile says.
     pub zero_is_home: bool,
     /// True if the control has tool offsets past 99.

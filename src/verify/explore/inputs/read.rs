@@ -4,11 +4,13 @@ use super::input::Inputs;
 use super::reader::{Locals, Reader};
 use crate::canon::Sys;
 use crate::control::ProgramRef;
+use crate::control::scenario::SharedRows;
 use crate::dialect::{Control, Question};
 use crate::syntax::{Item, ItemKind, Label};
 use crate::verify::compare::lacks_messages;
 use crate::verify::sides::Side;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Reads a program that is held against one on the `other` side: only if that has locals can both be given some.
 pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs {
@@ -30,7 +32,17 @@ pub fn set_for(found: Inputs, source: &Side<'_>, target: &Side<'_>) -> Inputs {
         source.control.behaviour(Question::LengthOffZero).is_some_and(|row| row.value == "home");
     let second_home = target.control.second_home();
     let peck_clearance = [source, target].into_iter().find_map(|side| side.control.peck_clearance());
-    Inputs { inch, sets_named, unworn, unworn_lengths, zero_is_home, second_home, peck_clearance, ..found }
+    let one_table = one_table(source.control, target.control).map(Arc::new);
+    let found = Inputs { inch, sets_named, unworn, unworn_lengths, one_table, ..found };
+    Inputs { zero_is_home, second_home, peck_clearance, ..found }
+}
+
+/// How rows stand in both tables, where the source has one number a row for lengths and radii, and the target has two. The other way round
+/// no one number is both of a row.
+fn one_table(source: &Control, target: &Control) -> Option<SharedRows> {
+    let rows = source.one_table().filter(|_| target.holds_offsets_apart())?;
+    let radii = source.behaviour(Question::RadiusOffsetTable).is_some_and(|row| row.value == "radius");
+    Some(SharedRows { per: if radii { 1.0 } else { 2.0 }, rows })
 }
 
 /// True where a control keeps the wear of a tool's radius in a place of its own.

@@ -329,6 +329,7 @@ impl<'c> Reader<'c> {
             peck_clearance: None,
             unworn: self.pockets,
             unworn_lengths: false,
+            one_table: None,
             zero_is_home: false,
             many_tools: false,
             inch: self.inch,

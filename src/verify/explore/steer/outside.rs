@@ -197,7 +197,13 @@ impl Input {
                 *scenario.work_offsets.entry(*number).or_default().get_mut(*axis)? = value
             }
             Input::Length(number) => scenario.tools.entry(*number).or_default().length = value,
-            Input::Radius(number) => scenario.tools.entry(*number).or_default().radius = value.abs(),
+            Input::Radius(number) => {
+                let tool = scenario.tools.entry(*number).or_default();
+                tool.radius = value.abs();
+                if let Some(shared) = &scenario.one_table {
+                    tool.length = tool.radius * shared.per;
+                }
+            }
             Input::LengthWear(number) => scenario.tools.entry(*number).or_default().length_wear = value,
             Input::RadiusWear(number) => scenario.tools.entry(*number).or_default().radius_wear = value,
             Input::Probe(at) => {
