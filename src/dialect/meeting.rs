@@ -142,7 +142,12 @@ fn met_one(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Me
     let Some(standard) = standard.filter(|row| !own(row.op)) else {
         return Ok(Met::Target(builders(site, act, code)));
     };
-    let switched = matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
+    let mirrors = standard.op == Op::MirrorOff
+        || standard.op == Op::MirrorOn
+            && beside
+                .iter()
+                .any(|word| target.role(word.letter, false, Some(standard)).is_some_and(Role::is_axis));
+    let switched = mirrors || matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
     if standard.op.is_flow() || !switched || standard.op == Op::ProbeOther {
         let meaning = standard.op.meaning().trim().trim_end_matches('.');
         let program = beside.iter().find(|word| word.letter == 'P').and_then(number);
@@ -151,6 +156,12 @@ fn met_one(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Me
             return Err(format!(
                 "{} cannot be {code} of the target, which calls a program: write calls = {program}{arguments} in place of target, and \
                  O{program} under 'programs' of the target's profile if it stands there",
+                site.code
+            ));
+        }
+        if standard.op == Op::MirrorOn {
+            return Err(format!(
+                "{} cannot be {code} of the target, which names no axis: write target = \"{code} X0\"",
                 site.code
             ));
         }

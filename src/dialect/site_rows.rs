@@ -69,6 +69,13 @@ impl Overlay {
             let help = "leave 'op' out; for a code that calls a program write calls = 9010";
             self.site_fault(site, message, help);
         }
+        let axes = || row.fixed.keys().chain(row.words.values()).any(|role| role.is_axis());
+        if row.op == Op::MirrorOn && code.starts_with('M') && site.op.is_some() && !axes() {
+            let message = format!("'{code}' does not say which axis it mirrors");
+            let help = "name the code of the target with its axis in place of op: target = \"G51.1 X0\"; or write fixed = { \"axis.x\" = 0 } \
+                        beside op";
+            self.site_fault(site, message, help);
+        }
         if matches!(row.op, Op::OutputOn | Op::OutputOff) && !row.fixed.contains_key(&Role::Output) {
             let message = format!("'{code}' does not say which output it switches");
             let help = "write fixed = { \"output.bit\" = 24 }: the number that programs of the other control know it by";

@@ -45,6 +45,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             if let StmtKind::Nc(nc) = &mut stmt.kind
                 && nc.has(Op::MirrorOn)
             {
+                if axes(nc).next().is_none() {
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, NO_AXIS).with_help(NAME_IT));
+                }
                 if !about_zero(nc) {
                     mirror(nc, index, span, context);
                 }
@@ -99,6 +102,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 const COMPUTED: &str = "the scale factor is computed, and no source says whether a control takes its value or counts parts of it, as it does \
      with a number without a point: make sure that both take the value";
+
+const NO_AXIS: &str = "this begins to mirror and names no axis: no page says what it does, and on most controls it mirrors nothing or is an alarm";
+const NAME_IT: &str = "name the axis that the machine mirrors here, with 0 beside it";
 
 /// The axes that the library mirrors.
 fn mirrored(module: &Module) -> BTreeSet<Role> {

@@ -16,6 +16,16 @@ pub fn may_take<'c>(
     role: Role,
     moves: bool,
 ) -> Option<&'c CodeMeaning> {
+    // An M code that shapes coordinates has its axes from the profile: those of the block would be taken for its own.
+    let shapes = |row: &&CodeMeaning| {
+        row.code.starts_with('M')
+            && matches!(row.op.group(), Group::Mirror | Group::Rotation | Group::Scaling)
+    };
+    if role.is_axis()
+        && let Some(row) = rows.clone().find(shapes)
+    {
+        return Some(row);
+    }
     // A switch of a spindle or a coolant by a G code is a builder's too.
     let switch = |row: &CodeMeaning| row.code.starts_with('G') && row.op.auxiliary().is_some();
     let is_told = |row: &CodeMeaning| matches!(row.op, Op::Act | Op::Builder) || switch(row);
