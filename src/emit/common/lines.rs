@@ -90,6 +90,11 @@ impl<'p> Sheet<'p> {
             // A skipped line need not be found by a jump.
             self.flush_label();
         }
+        if message.is_some() && self.line.name.is_some() {
+            // A control may show the first text of the block.
+            self.flush_label();
+            self.span = site.span;
+        }
         self.line.kind = kind;
         self.line.comments = std::mem::take(&mut self.line.waiting);
         if kind == Kind::Alone {
@@ -105,7 +110,7 @@ impl<'p> Sheet<'p> {
         }
         let unprinted = self.head();
         self.line.head_end = self.text.len();
-        if let Some(number) = unprinted {
+        if let Some(number) = unprinted.filter(|_| message.is_none()) {
             self.space();
             write_comment(&mut self.text, &format!("{}{number}", self.forms.sequence));
         }

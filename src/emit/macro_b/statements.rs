@@ -104,16 +104,12 @@ impl<'p> Emitter<'p> {
         self.begin(site, Kind::Alone, Some(text));
         self.assign(&Place::System(state, ThinVec::new()), number);
         let text = text.trim();
-        let most = self
-            .control
-            .limit(if state == Sys::Alarm { "message.alarm" } else { "message" })
-            .map_or(usize::MAX, |most| most as usize);
         if !text.is_empty() {
             self.out.push(' ');
             write_comment(&mut self.out.text, text);
         }
-        if !is_writable(text) || text.len() > most {
-            let message = format!("the message '{text}' cannot be shown as it is, or not all of it");
+        if !is_writable(text) {
+            let message = format!("the message '{text}' cannot be shown as it is");
             self.out.review(Code::MessageAltered, message);
         }
         self.out.finish();

@@ -26,7 +26,7 @@ use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use after::After;
 pub(in crate::legalize) use kinds::pause_of;
-use kinds::{ends_run, restarts, stops_in, tool_after, written};
+use kinds::{ends_run, has_messages, restarts, stops_in, tool_after, written};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
@@ -130,6 +130,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 again: Vec::new(),
                 tool: None,
                 stood_in: false,
+                is_plain_stop: false,
                 passes,
             };
             let before = place.block(block, context);
@@ -237,6 +238,8 @@ struct Place<'p> {
     again: Vec<(usize, Op)>,
     /// The tool that the block put into the spindle last.
     tool: Option<f64>,
+    /// True at a message that is a program stop of the source, which has no messages and showed a text before it.
+    is_plain_stop: bool,
     /// True at a stop that stands for a code of the source which ends nothing there.
     stood_in: bool,
     /// True where the target passes over a change to the tool that is in the spindle: then it ends nothing.
@@ -257,6 +260,8 @@ impl Place<'_> {
             self.skipped = stmt.site.skip.is_some();
             self.stood_in = matches!(stmt.kind, StmtKind::StopMessage { .. })
                 && context.stood_in.contains(&(context.origin(self.index), stmt.site.span));
+            self.is_plain_stop =
+                matches!(stmt.kind, StmtKind::StopMessage { .. }) && !has_messages(context.source);
             let Some((pause, optional)) = pause else { continue };
             // What stands beside a move is left: before it, the move would find it ended.
             let moves = pause == Pause::Change && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves());
@@ -272,6 +277,7 @@ impl Place<'_> {
         }
         if self.ends {
             (self.restarted, self.skipped, self.stood_in) = ([false; 2], false, false);
+            self.is_plain_stop = false;
             let before =
                 self.stop((Pause::End, false, false, true), usize::MAX, block.term.site.span, context);
             if !before.is_empty() {
@@ -304,7 +310,8 @@ impl Place<'_> {
             if !self.may_run(running) || self.restarted[running as usize] {
                 continue;
             }
-            let here = match context.source.ends(pause, running) {
+            let own = if self.is_plain_stop { Pause::Stop } else { pause };
+            let here = match context.source.ends(own, running) {
                 here if self.stood_in => Ends { answer: Some(false), known: true, ..here },
                 here => here,
             };

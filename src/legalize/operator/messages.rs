@@ -1,8 +1,8 @@
 //! Messages longer than the target shows.
 //!
 //! Law: the message is cut where the target's display ends, and the whole of it stands in a comment beside. A number that does not
-//! fit is left out whole: 90 must not become 9. When
-//! and why the machine stops does not change. The variable that an operator is asked for goes first where it would be cut
+//! fit is left out whole: 90 must not become 9. Where both machines have one control, and show as much, the text stays: the old one cuts
+//! it off at the same place. When and why the machine stops does not change. The variable that an operator is asked for goes first where it would be cut
 //! off.
 
 use crate::diag::{Code, Diagnostic};
@@ -14,6 +14,9 @@ use crate::text::variable_to_set;
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let limit = |name| context.target.limit(name).map_or(usize::MAX, |n| n as usize);
     let (alarm, stop) = (limit("message.alarm"), limit("message"));
+    let one_control = context.source.name() == context.target.name();
+    let alike = |name| one_control && context.source.limit(name) == context.target.limit(name);
+    let alike = ["message.alarm", "message"].map(alike);
     let prefixes = context.target.prefixes();
     for (index, program) in module.programs.iter_mut().enumerate() {
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
@@ -22,7 +25,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 StmtKind::StopMessage { text, .. } => (stop, text, true),
                 _ => continue,
             };
-            if text.chars().count() <= most {
+            if text.chars().count() <= most || alike[usize::from(asks)] {
                 continue;
             }
             let whole = std::mem::take(text).into_string();

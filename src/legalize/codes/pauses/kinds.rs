@@ -44,7 +44,12 @@ pub(super) fn restarts(kind: &StmtKind, running: Running) -> bool {
 /// The kind of stop that is written for one: a message is a program stop on a control that has none.
 pub(super) fn written(pause: Pause, target: &Control) -> Pause {
     match pause {
-        Pause::Message if target.system_runs(Sys::StopMessage).next().is_none() => Pause::Stop,
+        Pause::Message if !has_messages(target) => Pause::Stop,
         pause => pause,
     }
+}
+
+/// True for a control that stops with a message.
+pub(super) fn has_messages(control: &Control) -> bool {
+    control.system_runs(Sys::StopMessage).next().is_some()
 }
