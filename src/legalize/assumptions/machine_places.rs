@@ -3,15 +3,17 @@
 //! Nothing is changed. A move in machine coordinates, and a work offset that a program writes as numbers, name places that hang on
 //! where the machine has its zero, how far it goes, and what stands on its table. The words are the same on the target, and the
 //! place is not. It is asked once of the target. Side conditions: zero of an axis is the reference position, where both controls are
-//! of one family; of Z it is so on all. What is read from the machine (a position, an offset that was saved) is the target's own.
+//! of one family; of Z it is so on all. What is read from the machine (a position, an offset that was saved) is the target's own, and
+//! what a program compares it with is not, but for 0 and for what it read there too.
 //! Counter-example: `G53 X-300.`, which is past the end of a smaller machine.
 
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
-use crate::ir::{Expr, Module, Nc, NcItem, Place, StmtKind, Var};
+use crate::ir::{Cond, Expr, Module, Nc, NcItem, Place, StmtKind, TermKind, Var};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
+use crate::text::Span;
 use std::collections::HashMap;
 
 /// What is asked of moves to such places, and of work offsets that are written as numbers.
@@ -32,6 +34,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let numbers = Numbers::of(module);
+    let read = read_places(module);
     let answer = |question| context.target.behaviour(question).map(|row| row.value.clone());
     let [moves, offsets] = [MOVES, OFFSETS].map(answer);
     // Zero is where each machine has its home, as the shop says.
@@ -59,17 +62,109 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 if !names || answer.as_deref() == Some("same") {
                     continue;
                 }
-                if matches!(answer.as_deref(), Some("other" | "home")) {
-                    let what = "this is a place in machine coordinates of the old machine: write the place of the new one into the \
-                                conversion";
-                    context.add(index, Diagnostic::new(Code::Conditional, stmt.site.span, what));
-                } else {
-                    let what = question.meaning();
-                    context.unconfirmed(index, Side::Target, stmt.site.span, question.fact(), what);
+                tell((index, stmt.site.span), (question, answer.as_deref()), NAMED, context);
+            }
+            let TermKind::Branch { cond, .. } = &block.term.kind else { continue };
+            let span = block.term.site.span;
+            for state in compared(cond, &read, &numbers) {
+                let offset = state == Sys::WorkOffset;
+                let (question, answer) = if offset { (OFFSETS, &offsets) } else { (MOVES, &moves) };
+                if answer.as_deref() != Some("same") {
+                    tell((index, span), (question, answer.as_deref()), COMPARED, context);
                 }
             }
         }
     }
+}
+
+const NAMED: &str = "this is a place in machine coordinates of the old machine: write the place of the new one into the conversion";
+const COMPARED: &str = "a work offset or a machine position is compared with a number of the old machine: write the number of the new one into \
+                        the conversion";
+
+/// Tells of a place where the answer is that it is another one, and asks where there is none.
+fn tell(
+    (index, span): (usize, Span),
+    (question, answer): (Question, Option<&str>),
+    what: &'static str,
+    context: &mut Context<'_>,
+) {
+    if matches!(answer, Some("other" | "home")) {
+        context.add(index, Diagnostic::new(Code::Conditional, span, what));
+    } else {
+        context.unconfirmed(index, Side::Target, span, question.fact(), question.meaning());
+    }
+}
+
+/// The variables that hold one place which was read from the machine, with or without numbers: a work offset, or a position.
+fn read_places(module: &Module) -> HashMap<Var, Sys> {
+    let mut read: HashMap<Var, Sys> = HashMap::new();
+    // Twice, for what goes through another variable.
+    for _ in 0..2 {
+        for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts)
+        {
+            let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind else { continue };
+            if let Some(state) = one_place([value], &read) {
+                read.insert(*var, state);
+            }
+        }
+    }
+    read
+}
+
+/// The place that expressions hold, if they hold one: the difference of two is no place.
+fn one_place<'e>(all: impl IntoIterator<Item = &'e Expr>, read: &HashMap<Var, Sys>) -> Option<Sys> {
+    let mut found = Vec::new();
+    all.into_iter().for_each(|value| {
+        value.walk(&mut |part| match part {
+            Expr::System(state @ (Sys::WorkOffset | Sys::MachinePosition), _) => found.push(*state),
+            Expr::Var(var) => found.extend(read.get(var).copied()),
+            _ => {}
+        });
+    });
+    match found.as_slice() {
+        [state] => Some(*state),
+        _ => None,
+    }
+}
+
+/// Visits what a value is made of; the numbers of what it reads from the machine are no part of it.
+fn parts<'e>(value: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
+    f(value);
+    if !matches!(value, Expr::System(..)) {
+        value.exprs(&mut |operand| parts(operand, f));
+    }
+}
+
+/// What a condition holds against numbers of its program: a work offset, or a position.
+fn compared(cond: &Cond, read: &HashMap<Var, Sys>, numbers: &Numbers) -> Vec<Sys> {
+    match cond {
+        Cond::Compare(_, a, b) => {
+            let place = one_place([a, b], read);
+            place.filter(|_| has_number([a, b], read, numbers)).into_iter().collect()
+        }
+        Cond::And(all) | Cond::Or(all) => all.iter().flat_map(|one| compared(one, read, numbers)).collect(),
+        Cond::Not(inner) => compared(inner, read, numbers),
+        Cond::Switch(_) => Vec::new(),
+    }
+}
+
+/// True where the rest of a comparison is numbers of the program, and not 0 alone.
+fn has_number(all: [&Expr; 2], read: &HashMap<Var, Sys>, numbers: &Numbers) -> bool {
+    let (mut number, mut other) = (false, false);
+    for value in all {
+        parts(value, &mut |part| match part {
+            Expr::Number(value) => number |= *value != 0.0,
+            Expr::Var(var) if read.contains_key(var) => {}
+            Expr::Var(var) => match numbers.0.get(var) {
+                Some(false) => number = true,
+                _ => other = true,
+            },
+            Expr::System(Sys::WorkOffset | Sys::MachinePosition, _) => {}
+            Expr::System(..) | Expr::Indirect(..) => other = true,
+            _ => {}
+        });
+    }
+    number && !other
 }
 
 /// True if a block names such a place; `state` is what is in force in it.
