@@ -3,7 +3,8 @@
 //! Law: a variable that every run writes before it reads it does not show what it held at power-on. For the others the
 //! difference can be seen: a counter kept in `#100` starts anew on a control that clears it, and a test for vacancy after
 //! power-on never comes true on one that keeps it. Whether the shop needs such values is asked once, and the profile of the
-//! source says it. If it does, each program is for review.
+//! source says it. If it does, each program is for review. Where no source says whether the source keeps them, and the target is
+//! known to, that is asked: a count that began at 0 each morning would go on.
 //!
 //! What is read after a call of a program that is not in the library, and not before one, is taken for what that program leaves,
 //! where no program of the library writes it by its number, and none that runs with it by a computed one: a note says so, and
@@ -23,6 +24,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 const QUESTION: Question = Question::PowerOffValues;
+const KEEPS: Question = Question::CommonAtPowerOn;
 
 /// Reports variables whose life differs.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -32,12 +34,21 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 }
 
 fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
+    // A control with two kinds of them says by its classes which it keeps.
+    let two_kinds = context.source.classes().iter().any(|row| row.class == "retained");
+    let said = context.source.behaviour(KEEPS).filter(|_| !two_kinds).map(|row| row.value.clone());
+    let keeps = match said.as_deref() {
+        Some("kept") => Some(true),
+        Some("vacant") => Some(false),
+        _ => None,
+    };
     let differing = |var: &Var, register: &Register| {
         let there =
             context.target.variable_class(&register.name, register.number).and_then(|row| row.retained);
         let here = match var.class {
             Class::Common => Some(false),
             Class::Retained => Some(true),
+            Class::Global | Class::Parametric => keeps,
             _ => None,
         };
         (here.is_some() && here != there).then_some(here == Some(true))
@@ -55,6 +66,9 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     let answer = context.source.behaviour(QUESTION).map(|row| row.value.as_str());
     if answer == Some("unused") {
         return;
+    }
+    if said.as_deref() == Some("unknown") {
+        ask_of_globals(module, registers, context);
     }
     let is_needed = answer == Some("used");
     if lives.is_empty() {
@@ -111,6 +125,27 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
                 false => finding.with_help(&*asked).with_fact(QUESTION.fact()).asked_once(),
             };
             context.add(index, finding);
+        }
+    }
+}
+
+/// Asks whether the source keeps variables that a program may read before it writes them.
+fn ask_of_globals(module: &Module, registers: &Registers, context: &mut Context<'_>) {
+    let keeps = |register: &Register| {
+        context.target.variable_class(&register.name, register.number).and_then(|row| row.retained)
+    };
+    let shown = registers.of.iter().filter(|(var, register)| {
+        matches!(var.class, Class::Global | Class::Parametric) && keeps(register) != Some(false)
+    });
+    let shown: Vec<Var> = shown.map(|(var, _)| *var).collect();
+    if shown.is_empty() {
+        return;
+    }
+    let upward_exposed = UpwardExposed::among(module, Universe::new(shown.iter().copied().collect()));
+    for index in roots(module) {
+        let is_at_entry = upward_exposed.at_entry_of(index);
+        if shown.iter().any(|var| is_at_entry(*var)) {
+            context.rests_on_source(index, module.programs[index].site.span, KEEPS);
         }
     }
 }
