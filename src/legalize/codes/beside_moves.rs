@@ -271,6 +271,10 @@ impl Block<'_> {
             if same || (!waits && !here.known && (!tells || kind == Auxiliary::Other)) {
                 continue;
             }
+            if here.known && !there.known && context.source.name() == context.target.name() {
+                // Whoever said it of one machine can say it of the other, and the block stays whole.
+                self.theirs.push(there.question);
+            }
             self.take(kind, starts, late);
         }
         self.spread(context);
@@ -329,6 +333,12 @@ impl Block<'_> {
                 (self.nc.items.iter()).filter_map(|item| Some((kind(item, true)?, item.clone()))).collect();
             if codes.len() <= most {
                 return;
+            }
+            if context.source.name() == context.target.name()
+                && !self.theirs.contains(&Question::MCodesPerBlock)
+            {
+                let row = context.target.behaviour(Question::MCodesPerBlock);
+                self.theirs.extend(row.filter(|row| !row.origin.is_settled()).map(|row| row.question));
             }
             // What starts waits for a change beside it.
             let changes = codes.iter().any(|(kind, _)| *kind == Auxiliary::Change);

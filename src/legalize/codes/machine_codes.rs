@@ -20,14 +20,28 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     features.has(Feature::Emptied) || features.has(Feature::Code) || features.any_op(here)
 }
 
+const QUESTION: Question = Question::MCodesPerBlock;
+
+/// How many M codes stand together in a block; none if nobody said it.
+fn most_of(control: &Control) -> Option<usize> {
+    match control.behaviour(QUESTION)?.value.as_str() {
+        "1" => Some(1),
+        "3" => Some(3),
+        "any" => Some(usize::MAX),
+        _ => None,
+    }
+}
+
 /// Gives each M code a block of its own, past those that the target takes together.
-pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let target = context.target;
-    let most = match target.behaviour(Question::MCodesPerBlock).map(|b| b.value.as_str()) {
-        Some("3") => 3,
-        Some("any") => usize::MAX,
-        _ => 1,
-    };
+    let most = most_of(target).unwrap_or(1);
+    // Of two machines of one control whoever knows it of one knows it of the other.
+    let row = target.behaviour(QUESTION);
+    let open = context.source.name() == target.name()
+        && !context.source.is_same_machine(target)
+        && row.is_some_and(|row| !row.origin.is_settled() || most_of(target).is_none());
+    let mut split_at = None;
     let always_turns = target.code_for(Op::SurfaceSpeed, &BTreeMap::new()).is_none();
     let m_codes =
         context.m_codes.get_or_init(|| Op::ALL.iter().copied().filter(|op| is_m_code(*op, target)).collect());
@@ -45,7 +59,11 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
                 let kind = StmtKind::Nc(Nc { items });
                 (at, Stmt { kind, site: site.clone() })
             });
+            let count = behind.len();
             behind.extend(rest);
+            if behind.len() > count {
+                split_at = split_at.or(Some(stmt.site.span));
+            }
             changed |= nc.items.is_empty() || nc.items.len() != before;
             if nc.items.is_empty() {
                 stmt.kind = StmtKind::Comment;
@@ -61,6 +79,9 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
                 }
             }
         }
+    }
+    if let Some(span) = split_at.filter(|_| open) {
+        context.rests_on_target(index, span, QUESTION);
     }
     changed
 }
