@@ -84,7 +84,11 @@ fn begins_there(survey: &Survey<'_>) -> Vec<String> {
 
 /// The settings that programs wait for, as a machine might have them.
 fn settings<'s>(survey: &'s Survey<'_>, side: Side) -> impl Iterator<Item = Answer> + use<'s> {
-    survey.settings.iter().filter(move |asked| asked.side == side).map(|asked| -> Answer {
+    let of_side = survey
+        .settings
+        .iter()
+        .filter(move |asked| asked.side == side && asked.section != super::speeds::SECTION);
+    of_side.map(|asked| -> Answer {
         let (section, name, value) = (asked.section, asked.name.clone(), asked.usual());
         Box::new(move |profile| set(profile, section, &name, &value))
     })

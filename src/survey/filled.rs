@@ -17,13 +17,10 @@ use std::fmt::Write;
 
 /// What a line begins with that is a question.
 pub(super) const ASKS: &str = "#?";
-
 /// What a line begins with that tells of questions.
 pub(super) const TELLS: &str = "#:";
-
 /// Letters of a question's text.
 const LONGEST: usize = 300;
-
 /// Why a profile could not be filled.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
@@ -37,8 +34,7 @@ pub struct Unfit(String);
 /// If putting the questions in would change what the profile says.
 pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<String, Unfit> {
     let control = survey.controls[usize::from(side == Side::Target)];
-    let fresh = || format!("dialect = \"{}\"\n", control.name());
-    let mut text = old.map_or_else(fresh, without_questions);
+    let mut text = old.map_or_else(|| format!("dialect = \"{}\"\n", control.name()), without_questions);
     if !text.ends_with('\n') {
         text.push('\n');
     }
@@ -78,6 +74,7 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;
     }
+    let codes = super::kept::codes(old.unwrap_or_default(), &|file| survey.has_file(file), codes);
     if !codes.is_empty() {
         text = inserted(&text, super::site_rows::SECTION, &codes)?;
     }
@@ -151,6 +148,7 @@ fn line_of(setting: &AskedSetting, said: &Profile) -> String {
     let AskedSetting { name, section, values, default, meaning, .. } = setting;
     let choice = match *section {
         // A name with points is one key.
+        super::speeds::SECTION => super::speeds::line(name),
         "behaviours" => Settled::choice(&format!("\"{name}\""), values),
         _ => Settled::choice(name, values),
     };

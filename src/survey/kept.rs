@@ -1,11 +1,11 @@
 //! Questions that an earlier survey of another library left in a profile: two old machines may go to one new one.
 
-use super::filled::ASKS;
+use super::filled::{ASKS, TELLS};
 use super::unseen;
 use std::collections::BTreeMap;
 
 /// The sections whose questions stay.
-const SECTIONS: [&str; 4] = [unseen::SECTION, "behaviours", "settings", "parameters"];
+const SECTIONS: [&str; 5] = [unseen::SECTION, "behaviours", "settings", "parameters", super::speeds::SECTION];
 
 /// Puts questions of other libraries after those of this one, unless it asks the same. `is_here` is true for a file of this library.
 pub(super) fn others(old: &str, is_here: &dyn Fn(&str) -> bool, asked: &mut BTreeMap<&'static str, String>) {
@@ -35,6 +35,33 @@ pub(super) fn others(old: &str, is_here: &dyn Fn(&str) -> bool, asked: &mut BTre
             lines.push('\n');
         }
     }
+}
+
+/// The lines of the codes of a machine's builder, with those of other libraries after them.
+pub(super) fn codes(old: &str, is_here: &dyn Fn(&str) -> bool, mut own: String) -> String {
+    let mut in_codes = false;
+    for line in old.lines().map(str::trim) {
+        if let Some(rest) = line.strip_prefix('[') {
+            in_codes = rest.split(']').next() == Some(super::site_rows::SECTION);
+        }
+        let Some((row, about)) = line.split_once(" # ").filter(|_| in_codes && line.starts_with(ASKS)) else {
+            continue;
+        };
+        let words = about.split([' ', ',', ';']).filter_map(|word| word.rsplit_once(':'));
+        let mut files =
+            words.filter(|(_, line)| line.parse::<u32>().is_ok()).map(|(file, _)| file).peekable();
+        if files.peek().is_none() || files.all(is_here) || own.lines().any(|own| own.starts_with(row)) {
+            continue;
+        }
+        if own.is_empty() {
+            own = format!(
+                "{TELLS} What another library asks of the codes of this machine: docs/builders-codes.md.\n"
+            );
+        }
+        own.push_str(line);
+        own.push('\n');
+    }
+    own
 }
 
 /// What a question asks for: the key, or the fact in its quotes.
@@ -79,5 +106,20 @@ confirm = [
         let kept = asked["behaviours"].lines().nth(1);
         assert_eq!(kept, Some(r#"#? "rotary.way" = "turns" # how (A.NC:3)"#));
         assert!(!asked.contains_key("start"));
+    }
+
+    #[test]
+    fn codes_of_another_library_stay_too() {
+        let probe = "#? \"\" = { op = \"probe.on\" } # M64 of the source; A.NC:8";
+        let old = format!(
+            "[codes]\n{probe}\n#? M18 = {{ target = \"\" }} # 2 programs: B.NC:1, B.NC:2; as in: M18\n[start]\n{probe}\n"
+        );
+        let is_here = |file: &str| file == "B.NC";
+        let alone = codes(&old, &is_here, String::new());
+        assert!(
+            alone.starts_with(TELLS) && alone.lines().count() == 2 && alone.ends_with(&format!("{probe}\n"))
+        );
+        let own = format!("{}\n", probe.replace("A.NC:8", "B.NC:9"));
+        assert_eq!(codes(&old, &is_here, own.clone()), own);
     }
 }

@@ -17,6 +17,7 @@ mod programs;
 mod shape;
 mod signals;
 mod site_rows;
+mod speeds;
 mod start;
 mod text;
 mod there;
@@ -136,6 +137,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let further_axes = variables::further_axes(source, &library.module);
     let digits =
         target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
+    let speeds = target.and_then(|target| speeds::asked(&places, target, &library.module));
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),
@@ -152,6 +154,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let controls = [source, target.unwrap_or(source)];
     let mut settings = keys::asked(&places, controls, &conversion.programs);
     settings.extend(digits);
+    settings.extend(speeds);
     let words = words::asked(&places, &conversion.programs);
     let there = there::asked(&places, source, &conversion.programs);
     let signals = signals::asked(&places, &conversion.programs);

@@ -1,5 +1,6 @@
 //! A survey for people.
 
+use super::speeds;
 use super::{AskedCode, AskedSetting, AskedStart, Missing, Outcomes, Shape, Survey};
 use crate::dialect::{Control, Settled, Side};
 use crate::library::TakenAsLathe;
@@ -142,7 +143,8 @@ fn settings(out: &mut String, asked: &[AskedSetting], controls: [&Control; 2]) {
         let title = &control.dialect().title;
         let _ = writeln!(out, "\nSettings of the {title} that programs wait for: its profile says them.");
         for AskedSetting { section, name, values, meaning, programs, places, .. } in own {
-            let line = Settled::choice(name, values);
+            let limit = (*section == speeds::SECTION).then(|| speeds::line(name));
+            let line = limit.unwrap_or_else(|| Settled::choice(name, values));
             let (meaning, places) = (shown(meaning), shown(&places.join(", ")).into_owned());
             let _ = writeln!(out, "  [{section}] {line}: {meaning}");
             let _ = writeln!(out, "         {}: {places}", count(*programs));

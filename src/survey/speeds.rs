@@ -1,0 +1,56 @@
+//! How fast the target's spindle turns, where programs ask for high speeds: no table has it, and a lower one cuts at another feed a tooth.
+
+use super::keys::AskedSetting;
+use super::shape::{NAMED, Places};
+use crate::canon::{Op, Role};
+use crate::dialect::{Control, Side};
+use crate::ir::{Expr, Module, StmtKind};
+use crate::text::Span;
+
+/// The section of a profile that says it, and the name there.
+pub(super) const SECTION: &str = "limits";
+const LIMIT: &str = "spindle.speed";
+
+/// What most machines turn: lower speeds ask nothing.
+const USUAL: f64 = 6000.0;
+
+/// The line to fill in: a limit is a number, and 0 is none.
+pub(super) fn line(name: &str) -> String {
+    format!("\"{name}\" = 0")
+}
+
+/// The limit, where the profile of the target does not say it and programs ask for more than most machines turn.
+pub(super) fn asked(places: &Places<'_>, target: &Control, module: &Module) -> Option<AskedSetting> {
+    if target.limit(LIMIT).is_some() {
+        return None;
+    }
+    let mut greatest = 0.0;
+    let mut found: Vec<(usize, Span)> = Vec::new();
+    for program in &module.programs {
+        let mut first = None;
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            let turns = !nc.has(Op::SurfaceSpeed) && !nc.has(Op::LimitSpeed);
+            let speed = nc.word(Role::Speed).and_then(Expr::constant).filter(|_| turns).unwrap_or(0.0);
+            if speed > USUAL {
+                greatest = speed.max(greatest);
+                first.get_or_insert(stmt.site.span);
+            }
+        }
+        found.extend(first.map(|span| (program.file, span)));
+    }
+    (!found.is_empty()).then(|| AskedSetting {
+        side: Side::Target,
+        section: SECTION,
+        name: LIMIT.to_owned(),
+        likely: None,
+        wanted: Vec::new(),
+        values: Vec::new(),
+        default: None,
+        meaning: format!(
+            "how many turns a minute the spindle makes at the most; programs ask for up to {greatest}"
+        ),
+        programs: found.len(),
+        places: found.iter().take(NAMED).map(|(file, span)| places.at(*file, *span)).collect(),
+    })
+}
