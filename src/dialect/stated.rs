@@ -125,6 +125,12 @@ impl Overlay {
                     row.origin.source = "machine profile".into();
                 }
                 None => {
+                    if name == SPEED {
+                        let help = "write how many turns a minute it makes, or remove the line".to_owned();
+                        let message = format!("{name} = 0: the spindle would not turn");
+                        self.fault(&format!("limits:{name}"), message, help);
+                        continue;
+                    }
                     let mut names: Vec<&str> = dialect.limits.iter().map(|row| row.name.as_str()).collect();
                     names.push(SPEED);
                     let help = format!("its limits are {}", names.join(", "));

@@ -54,3 +54,25 @@ pub(super) fn asked(places: &Places<'_>, target: &Control, module: &Module) -> O
         places: found.iter().take(NAMED).map(|(file, span)| places.at(*file, *span)).collect(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::dialect::{Control, Side};
+    use crate::library::Input;
+    use crate::survey::{filled, survey};
+
+    #[test]
+    fn the_speed_is_asked_where_programs_name_high_ones_and_nobody_said_it() {
+        let source = Control::from_profile("dialect = \"fanuc\"\nmachine = \"mill\"\n").unwrap();
+        let asked = |target: &str, speed: u32| {
+            let there = Control::from_profile(target).unwrap();
+            let text = format!("O1\nG21 G90\nS{speed} M3\nM30\n");
+            let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: text.into() }];
+            let text = filled(&survey(&inputs, &source, Some(&there)), Side::Target, Some(target)).unwrap();
+            text.contains("[limits]\n#? \"spindle.speed\" = 0 # ") && text.contains("(a.nc:3)")
+        };
+        let plain = "dialect = \"haas\"\nmachine = \"mill\"\n";
+        assert!(asked(plain, 9800) && !asked(plain, 6000));
+        assert!(!asked(&format!("{plain}[limits]\n\"spindle.speed\" = 8100\n"), 9800));
+    }
+}

@@ -141,7 +141,7 @@ fn ask_of_globals(module: &Module, registers: &Registers, context: &mut Context<
     if shown.is_empty() {
         return;
     }
-    let upward_exposed = UpwardExposed::among(module, Universe::new(shown.iter().copied().collect()));
+    let upward_exposed = UpwardExposed::among(module, Universe::new(shown.clone()));
     for index in roots(module) {
         let is_at_entry = upward_exposed.at_entry_of(index);
         if shown.iter().any(|var| is_at_entry(*var)) {
