@@ -102,7 +102,11 @@ confirm = [
         let mut asked =
             BTreeMap::from([("behaviours", "#? \"change.ends\" = true # what (B.NC:9)\n".to_owned())]);
         others(old, &|file| file == "B.NC", &mut asked);
-        assert_eq!(asked["confirm"], "#? \"code:M60\", # a brake (2 programs: A.NC:1, A.NC:7)\n");
+        assert_eq!(
+            asked["confirm"],
+            r##"#? "code:M60", # a brake (2 programs: A.NC:1, A.NC:7)
+"##
+        );
         let kept = asked["behaviours"].lines().nth(1);
         assert_eq!(kept, Some(r#"#? "rotary.way" = "turns" # how (A.NC:3)"#));
         assert!(!asked.contains_key("start"));

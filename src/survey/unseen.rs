@@ -39,9 +39,11 @@ mod tests {
 
     #[test]
     fn facts_are_one_question_and_single_again() {
-        let lines = "#? \"code:M60\", # a brake (A.NC:1)\n#? \"code:M61\", # another: \"off\" (B.NC:2)\n";
+        let lines = r##"#? "code:M60", # a brake (A.NC:1)
+#? "code:M61", # another: "off" (B.NC:2)
+"##;
         let text = together(lines);
-        assert_eq!(text.lines().last(), Some("#? \"code:M60\", \"code:M61\","));
+        assert_eq!(text.lines().last(), Some(r##"#? "code:M60", "code:M61","##));
         assert_eq!(text.lines().filter(|line| line.starts_with(ASKS)).count(), 1);
         let back: String = text.lines().filter_map(single).map(|line| line + "\n").collect();
         assert_eq!(back, lines);

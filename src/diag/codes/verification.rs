@@ -39,9 +39,9 @@ Name the files of called programs with `--library`."
 If you change such a number on the machine, read first what stands after that branch, or convert the program with the new number."
 
     "0808" SourceStops Note "the old machine stops where the new one goes on"
-"With some values, as an offset number that is not there, the source's control stops with an alarm of its own. The target does not stop, or stops elsewhere. Values with which the old machine ran are not concerned: runs with those went every way, and both sides did the same.
+"If a caller gave this program some values, as an offset number that is not there, the source's control would stop with an alarm of its own. The target does not stop, or stops elsewhere. Values with which the old machine ran are not concerned: runs with those went every way, and both sides did the same.
 
-If people may give such values, let the program check them first."
+Nothing needs to be done for the programs of the library. Who writes a new call must not give such values, or let the program check them first."
         }
     };
 }

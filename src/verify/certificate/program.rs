@@ -50,8 +50,8 @@ pub struct ProgramCertificate {
     pub target_not_reached: Vec<NotReached>,
     /// Ways of the source that only raise an alarm and that no run went: both texts say the same there.
     pub by_text: Vec<NotReached>,
-    /// Alarms by which the source's control stopped runs where the target went on: no value that the old machine took does that,
-    /// and other runs went every way of these to their own ends.
+    /// Alarms by which the source's control stopped runs of a called program where the target went on; other runs went every way
+    /// of these to their own ends.
     pub source_stops: Vec<String>,
     /// Ways of the source that no run of it can go, whatever it finds: only other numbers in its text would. Nobody ran them.
     pub by_own_numbers: Vec<NotReached>,

@@ -105,7 +105,7 @@ impl Verifier<'_, '_> {
             let told = !telling || self.compared >= effort.telling;
             let enough = told && (self.compared >= effort.fewest || barren);
             let done = enough
-                && (self.coverage.is_complete() && gone && self.is_sound()
+                && (self.coverage.is_complete() && gone && (self.is_sound() || !self.called)
                     || self.is_settled(&mut settled, (&scenario, &run), there, &found));
             if self.witness.is_some()
                 || done
@@ -124,7 +124,7 @@ impl Verifier<'_, '_> {
             });
             starts.extend(ended);
         }
-        if (!self.went_every_way() || !self.is_sound()) && !settled.is_known() {
+        if (!self.went_every_way() || self.called && !self.is_sound()) && !settled.is_known() {
             starts = self.steer(there, &found, starts);
         }
         let came = self.steer_to_conditions(there, &found, &starts);

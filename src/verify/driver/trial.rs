@@ -27,12 +27,18 @@ impl Verifier<'_, '_> {
 
     /// True for a run that may show what the source does where so far its control stopped each run that went there.
     pub(super) fn makes_sound(&self, run: &Run) -> bool {
-        !self.source_stops.is_empty() && !is_stopped(run) && !is_cut(run) && self.sound.has_new(run)
+        self.called
+            && !self.source_stops.is_empty()
+            && !is_stopped(run)
+            && !is_cut(run)
+            && self.sound.has_new(run)
     }
 
-    /// True if no run was stopped by the source's control, or if for each way that one went another went it to its own end.
+    /// True if no run was stopped by the source's control; or if callers give the program what stopped it, and for each way that
+    /// such a run went another went it to its own end.
     pub(super) fn is_sound(&self) -> bool {
-        self.source_stops.is_empty() || self.compared > 0 && self.sound.lacks(&self.coverage).is_empty()
+        self.source_stops.is_empty()
+            || self.called && self.compared > 0 && self.sound.lacks(&self.coverage).is_empty()
     }
 
     /// Takes in the ways of a pair that did the same.

@@ -1,6 +1,6 @@
 //! Programs that an alarm of the control stops.
 
-use super::{Outcome, within};
+use super::{Outcome, programs, within};
 use crate::verify::Why;
 
 /// The root of -1 stops both, and nobody saw that the moves after it are not the same.
@@ -17,21 +17,21 @@ fn what_stands_after_an_alarm_is_not_compared() {
     assert_eq!(within("fanuc", &program("5."), &program("9.")).outcome, Outcome::Different);
 }
 
-/// The root of a negative number stops the source alone. Others went the same ways, and both sides did the same.
+/// The root of a negative number stops the source alone. Its caller gives none, and others went the same ways alike.
 #[test]
-fn values_that_the_old_machine_refuses_are_told() {
-    let program = |root: &str, x: &str| {
-        format!("O1\nG20G90G17G40G80G94G54\n#1=SQRT[{root}]\nIF[#1GT3.]GOTO5\nG1X1.F9.\nN5G0X{x}\nM30\n")
+fn values_that_the_old_machine_refuses_are_told_of_what_is_called() {
+    let library = |root: &str, x: &str| {
+        format!(
+            "O1\nG20G90G17G40G80G94G54\nG65P2A16.\nM30\nO2\n#2=SQRT[{root}]\nIF[#2GT3.]GOTO5\nG1X1.F9.\nN5G0X{x}\nM99\n"
+        )
     };
-    let found = within("fanuc", &program("#501", "2."), &program("ABS[#501]", "2."));
+    let of_called = |source: &str, target: &str| {
+        let mut found = programs(("fanuc", source), ("fanuc", target), &[]);
+        assert_eq!(found.len(), 2);
+        found.remove(1)
+    };
+    let found = of_called(&library("#1", "2."), &library("ABS[#1]", "2."));
     assert!(!found.source_stops.is_empty() && found.reasons.is_empty(), "{found:#?}");
     assert_eq!(found.outcome, Outcome::Same, "{found:#?}");
-    // What only such runs come to was never compared.
-    let stops = program("#501", "2.").replace("N5G0", "N5#2=SQRT[-ABS[#1]]\nG0");
-    let goes_on = stops.replace("-ABS[#1]", "ABS[#1]");
-    let found = within("fanuc", &stops, &goes_on);
-    assert!(found.source_stops.is_empty(), "{found:#?}");
-    assert!(found.reasons.iter().any(|reason| reason.why == Why::SourceAlarms), "{found:#?}");
-    let found = within("fanuc", &program("#501", "2."), &program("ABS[#501]", "3."));
-    assert_eq!(found.outcome, Outcome::Different);
+    assert_eq!(of_called(&library("#1", "2."), &library("ABS[#1]", "3.")).outcome, Outcome::Different);
 }

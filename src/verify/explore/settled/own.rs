@@ -70,6 +70,8 @@ impl<'t> Own<'t> {
         let (mut anywhere, mut free) = (false, BTreeSet::new());
         for text in others.iter().copied().chain([text]) {
             for block in text {
+                // What is no part of the library may write anything.
+                anywhere |= calls_outside(side, block);
                 for_each_item(&block.items, &mut |item| match &item.kind {
                     ItemKind::Skip(_) => {}
                     ItemKind::Goto(Target::Computed(_))
@@ -128,7 +130,7 @@ impl<'t> Own<'t> {
     /// The variables that hang on which way a branch goes, as a block sees them; none if that cannot be told.
     fn open_by(&self, branch: &Branch<'_>, seen_from: usize) -> Option<BTreeSet<String>> {
         let range = match &branch.does {
-            Does::Items(items) => return Some(self.written_by(items)),
+            Does::Items(items) => return self.is_told(items).then(|| self.written_by(items)),
             Does::Loop(range) => range.clone(),
             Does::Jump(to) if *to > branch.at => {
                 // Runs that go on here passed nothing by.
@@ -141,7 +143,9 @@ impl<'t> Own<'t> {
         };
         let between = self.text.get(range)?;
         // From there it may go anywhere.
-        if between.iter().any(|block| block.items.iter().any(|item| self.leaves(item))) {
+        let is_open =
+            |block: &Block| block.items.iter().any(|item| self.leaves(item)) || !self.is_told(&block.items);
+        if between.iter().any(is_open) {
             return None;
         }
         Some(self.written(between))
@@ -171,6 +175,19 @@ impl<'t> Own<'t> {
             },
             _ => false,
         }
+    }
+
+    /// True if the text says which variables these write.
+    fn is_told(&self, items: &[Item]) -> bool {
+        let mut told = true;
+        for_each_item(items, &mut |item| match &item.kind {
+            ItemKind::Clear(_) => told = false,
+            ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } => {
+                told &= name_of(target, self.control).is_some();
+            }
+            _ => {}
+        });
+        told
     }
 
     fn written(&self, blocks: &[Block]) -> BTreeSet<String> {
@@ -256,4 +273,31 @@ impl<'t> Own<'t> {
         let after = self.text.get(at..)?.iter().position(|block| block.items.iter().any(is_end))?;
         Some(at + after)
     }
+}
+
+/// True for a call of a program that the library does not have, or of one that is not named by its number.
+fn calls_outside(side: &Side<'_>, block: &Block) -> bool {
+    let (mut calls, mut called) = (false, None);
+    for_each_item(&block.items, &mut |item| {
+        let ItemKind::Word(word) = &item.kind else { return };
+        let number = word.value.as_ref().and_then(|value| match &value.kind {
+            ExprKind::Number(number) => Some(number.value),
+            _ => None,
+        });
+        match (word.letter, number) {
+            ('G' | 'M', Some(number)) => {
+                let op = side.control.code(word.letter, number, &[]).map(|row| row.op);
+                let ends = [Op::Return, Op::SubEnd, Op::SubAreaEnd, Op::End, Op::EndRewind, Op::CallModalOff];
+                let is_call = |op: Op| op.is_flow() && !ends.contains(&op) && op != Op::CallLocal;
+                calls |= op.is_some_and(is_call) || side.control.alias(word.letter, number).is_some();
+            }
+            ('G' | 'M', None) => calls = true,
+            ('P', Some(number)) => called = Some(number as u32),
+            _ => {}
+        }
+    });
+    // The digits before the last four are how often.
+    let is_here =
+        |number: u32| [number, number % 10_000].into_iter().any(|number| side.numbered(number).is_some());
+    calls && !called.is_some_and(is_here)
 }
