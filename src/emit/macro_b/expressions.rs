@@ -56,7 +56,9 @@ impl Emitter<'_> {
         let rank = self.spellings.relation(relation).rank;
         // AND, OR and XOR could be read as joining conditions here.
         let bits = matches!(value, Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, ..));
-        let rank = if rank == 0 || bits { u32::MAX } else { rank.saturating_add(1) };
+        // A sum is bracketed as people do: a control that binds a comparison as tightly would compare its last part alone.
+        let sum = matches!(value, Expr::Binary(BinOp::Add | BinOp::Sub, ..));
+        let rank = if rank == 0 || bits || sum { u32::MAX } else { rank.saturating_add(1) };
         self.expression(value, Spot { rank, sign: true });
     }
 

@@ -138,7 +138,9 @@ impl<'c> Measure<'c> {
                 let rank = self.comparisons[*relation as usize];
                 let side = |e: &Expr| {
                     let size = self.expr(e);
-                    if self.binds_less(e, rank, true) { size.bracketed() } else { size }
+                    // The writer brackets a sum whatever the ranks are.
+                    let sum = matches!(e, Expr::Binary(BinOp::Add | BinOp::Sub, _));
+                    if sum || self.binds_less(e, rank, true) { size.bracketed() } else { size }
                 };
                 side(a).beside(side(b), 4)
             }
