@@ -256,6 +256,9 @@ questions! {
     AxesNumbered "axes.numbered" OneOf(&["profile", "letter", "unknown"]), "the order in which the axes have the numbers of their variables: that of the axes in the profile, or that of the letters X Y Z A B C U V W on every machine", if "said";
     HoleSidePlane "hole.side.plane" OneOf(&["diameter", "unknown"]), "what the retract plane of a cycle that drills along X of a lathe is: a diameter, as X is", if "said";
     HoleWaitBuilders "hole.wait.builders" OneOf(&["none", "unknown"]), "what P of a builder's code, as the speed of a live tool, is to a later hole of a lathe that has no P: no wait", if "said";
+    HoleWaitCalls "hole.wait.calls" OneOf(&["none", "unknown"]), "what P of a call (M97, M98, G65, M99) is to a later hole of a lathe that has no P: no wait", if "said";
+    HolePeckLasts "hole.peck.lasts" OneOf(&["block", "lasts", "unknown"]), "how long Q of a hole of a lathe counts: in its own block, so that the next holes without Q are drilled in one go, or until the cycle \
+                                                                            ends", if "op:hole.face or op:hole.face.peck";
     LogicRank "logic.rank" OneOf(&["listed", "unknown"]), "the order of AND, OR, XOR and NOT without brackets: as the table ranks them", if "said";
     ModalGroups "modal.groups" OneOf(&["code", "unknown"]), "what a program reads of the modal groups other than motion: the code itself", if "said";
     OffsetNumbers "offset.numbers" OneOf(&["listed", "unknown"]), "the numbers of tool lengths and cutter radii in a memory of another make: as the table lists them", if "said";

@@ -12,7 +12,7 @@ pub use answers::{LengthAfter, NoCentre, RadiusTable};
 use std::collections::BTreeMap;
 
 /// A fact: the answer acted by, and its name if nobody confirmed it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Fact<T> {
     pub(super) value: T,
     pub(super) unsure: Option<&'static str>,

@@ -24,6 +24,7 @@ mod hole_words;
 pub mod holes;
 pub mod inch_leads;
 pub mod interpolations;
+pub mod lasting_pecks;
 mod left_settings;
 pub mod lone_passes;
 pub mod modes;

@@ -6,9 +6,9 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     bare_starts, contour_ends, contour_left, contour_nose, contour_types, contours, corners, counts,
-    cycle_words, faces, held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations, lone_passes,
-    modes, none_offsets, pass_run_outs, roughing, run_outs, steps, tap_feeds, thread_ways, written_corners,
-    x_counts, zeros,
+    cycle_words, faces, held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations,
+    lasting_pecks, lone_passes, modes, none_offsets, pass_run_outs, roughing, run_outs, steps, tap_feeds,
+    thread_ways, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -16,6 +16,13 @@ use crate::legalize::moves::rapid_in_force;
 pub(super) fn is_mill(context: &Context<'_>) -> bool {
     context.target.machine() == Machine::Mill
 }
+
+pub(super) const LASTING_PECKS: Pass = Pass::edits(
+    "lasting-pecks",
+    "holes without a peck get that of their cycle, where it lasts",
+    lasting_pecks::run,
+)
+.when(lasting_pecks::concerns);
 
 pub(super) const HELD_HOLES: Pass = Pass::edits(
     "held-holes",

@@ -1,7 +1,7 @@
 //! The passes that look at what the programs rest on at the source, in the order they run in.
 
 use super::Pass;
-use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LONE_PASSES};
+use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LASTING_PECKS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop, top_speed};
 use crate::legalize::calls::parts;
@@ -57,6 +57,7 @@ pub(super) const SOURCE: &[Pass] = &[
         bare_feeds::run,
     )
     .when(bare_feeds::concerns),
+    LASTING_PECKS,
     HELD_HOLES,
     HOLE_CODES,
     INTERPOLATIONS,

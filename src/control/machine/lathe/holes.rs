@@ -30,7 +30,7 @@ pub fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resul
         let height = machine.frame.program(&machine.position)[along];
         machine.cycle.get_or_insert_with(|| Cycle::new(op, height)).op = op;
     }
-    read(machine, command, along);
+    read(machine, command, along, trace);
     machine.round_cycle(command, along, begins.is_some());
     machine.round_in(&across(command, along), trace);
     trace.doubt("machine:lathe.hole.moves");
@@ -103,7 +103,7 @@ fn check(machine: &Machine, command: &Command, op: Op) -> Result<(), Stop> {
 }
 
 /// Takes the block's words; those it does not have stay, but for a peck of a code that drills without it too (Q7).
-fn read(machine: &mut Machine, command: &Command, along: usize) {
+fn read(machine: &mut Machine, command: &Command, along: usize, trace: &mut Trace) {
     let (unit, incremental) = (machine.unit(), machine.incremental);
     // A radius is half of the coordinate.
     let radius = unit / machine.real(along);
@@ -119,7 +119,10 @@ fn read(machine: &mut Machine, command: &Command, along: usize) {
         machine.lathe.hole_by_mode = (!step).then_some(incremental);
     }
     let peck = command.word(Role::CycleQ).map(|peck| peck * radius);
-    let lasts = matches!(cycle.op, Op::FacePeck | Op::SidePeck);
+    let one_code = matches!(cycle.op, Op::FaceHole | Op::SideHole);
+    let asks = one_code && peck.is_none() && cycle.peck.is_some_and(|peck| peck != 0.0);
+    let lasts = matches!(cycle.op, Op::FacePeck | Op::SidePeck)
+        || asks && machine.rules.turning.peck_lasts.ask(trace);
     cycle.peck = peck.or(cycle.peck.filter(|_| lasts));
     // On a control whose P lasts across codes a cycle without one takes the last (S10).
     let last = machine.lathe.last_dwell.filter(|_| cycle.op.is_waiting_hole()).unwrap_or(cycle.dwell);
@@ -200,8 +203,11 @@ fn way(machine: &Machine, cycle: &Cycle, trace: &mut Trace) -> Result<Op, Stop> 
 }
 
 impl Machine {
-    /// Takes the P of a call, which is the last P of any code: a wait where P lasts across codes (S10).
+    /// Takes the P of a call, which is the last P of any code: a wait where P lasts across codes (S10), unless P
+    /// of a call is none.
     pub(in crate::control) fn last_wait(&mut self, milliseconds: f64) {
-        self.lathe.last_dwell = Some(milliseconds / 1000.0);
+        if !self.rules.turning.calls_are_no_wait {
+            self.lathe.last_dwell = Some(milliseconds / 1000.0);
+        }
     }
 }

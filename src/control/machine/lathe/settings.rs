@@ -1,7 +1,8 @@
 //! The settings of a lathe, read once.
 
-use crate::canon::{CycleSetting, Op, Role};
+use crate::canon::{Act, CycleSetting, Op, Role};
 use crate::control::machine::INCH;
+use crate::control::machine::rules::{Fact, fact};
 use crate::dialect::{Axis, Control, Question, Setting, Units};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,6 +21,12 @@ pub struct Turning {
     pub inch_set: Option<bool>,
     /// True where the return of the C axis engages it, and a start of the spindle lets it go (Q4).
     pub c_by_return: bool,
+    /// P of a call is never the wait of a hole (S10).
+    pub calls_are_no_wait: bool,
+    /// Q of a hole lasts until its cycle ends, where one code drills with it and without (Q7).
+    pub peck_lasts: Fact<bool>,
+    /// A code of the builder engages C.
+    pub c_by_code: bool,
     /// True where a negative radius of an arc is an alarm (C7).
     pub radius_not_negative: bool,
     /// True where G40 to G42 in a contour that is roughed are an alarm (R7).
@@ -113,6 +120,14 @@ impl Turning {
             radius_not_negative: (control.dialect().forbidden.iter())
                 .any(|row| row.negative && row.words.contains(&Role::ArcRadius)),
             inch_set: set_to_inch.or(profile).filter(|_| agrees),
+            calls_are_no_wait: answer(Question::HoleWaitCalls) == Some("none"),
+            peck_lasts: fact(
+                control,
+                Question::HolePeckLasts,
+                |value| ["lasts", "block"].contains(&value).then_some(value == "lasts"),
+                false,
+            ),
+            c_by_code: control.code_of(Act::named(Act::C_AXIS[0])).is_some(),
             c_by_return: answer(Question::CAxisEngages) == Some("return"),
             nose_alarms: answer(Question::ContourNose) == Some("alarm"),
             keeps_geometry: answer(Question::TurretNone) == Some("wear"),

@@ -1,6 +1,7 @@
 //! Cycles for a target whose retract planes are ways from where the cycle began, with one code for all drilling along an axis.
 
 use super::levels::{lasts, way};
+use super::pecks;
 use super::walk::{Hole, Refused};
 use crate::canon::{Op, Role};
 use crate::ir::{Expr, Nc, NcItem};
@@ -158,6 +159,9 @@ fn drill(hole: &mut Hole<'_>, op: Op) -> Result<(), Refused> {
     if pecks {
         // Known to the next holes even where this one is refused.
         hole.cycle.peck = hole.nc.word(Role::CycleQ).cloned().or(hole.cycle.peck.take());
+        hole.cycle.pecked = Some(true);
+    } else {
+        pecks::end(hole)?;
     }
     if hole.begins && told.is_none() {
         if (waits || pecks) && hole.waits.is_offset() {

@@ -8,7 +8,10 @@
 mod all;
 mod by_place;
 mod by_step;
+mod called_waits;
+mod known;
 mod levels;
+mod pecks;
 mod rigid;
 mod waits;
 mod walk;
@@ -27,7 +30,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 }
 
 /// True of a control whose retract planes of holes are ways from where the cycle began.
-fn tells_by_step(control: &Control) -> bool {
+pub(super) fn tells_by_step(control: &Control) -> bool {
     control.dialect().codes.iter().any(|row| row.words.values().any(|role| *role == Role::CycleRStep))
 }
 

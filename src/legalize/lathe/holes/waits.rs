@@ -22,6 +22,8 @@ pub(super) struct Told {
     offset: bool,
     /// True where a code of the builder with its P came after the wait that is known.
     builders: bool,
+    /// True where a call with its P came after it, which is taken to be none.
+    calls: bool,
 }
 
 /// What is known of it, and what P is on the source.
@@ -34,6 +36,10 @@ pub(super) struct Waits {
     called: Rc<Vec<bool>>,
     /// True where P of a code of the builder is none.
     builders_apart: bool,
+    /// True where P of a call is none.
+    calls_apart: bool,
+    /// True where it is not known what calls what.
+    any: bool,
 }
 
 /// True of a block that names a work offset by P: G54 to G59 need none, and those that P names have numbers from 101 on.
@@ -53,13 +59,30 @@ impl Waits {
         let any = calls().any(|call| matches!(call.callee, Callee::Computed(_) | Callee::Cycle(_)));
         let called = if any { vec![true; module.programs.len()] } else { called(module) };
         let apart = source.behaviour(Question::HoleWaitBuilders).is_some_and(|row| row.value == "none");
-        Self { told: Told::default(), roles, called: Rc::new(called), builders_apart: apart }
+        let calls_apart = source.behaviour(Question::HoleWaitCalls).is_some_and(|row| row.value == "none");
+        Self {
+            told: Told::default(),
+            roles,
+            called: Rc::new(called),
+            builders_apart: apart,
+            calls_apart,
+            any,
+        }
     }
 
-    /// Before the first block of a program: one that returns was called, maybe with a P, or begins again after one.
-    fn begin(&self, (index, program): (usize, &Program)) -> Told {
+    /// True where P of a call is taken to be none.
+    pub fn calls_apart(&self) -> bool {
+        self.calls_apart
+    }
+
+    /// Before the first block of a program: one that returns was called, maybe with a P, or begins again after one. Where P of a call is
+    /// none, only a caller that nobody knows may have told a wait.
+    pub(super) fn begin(&self, (index, program): (usize, &Program)) -> Told {
         let mut kinds = program.blocks.iter().map(|block| &block.term.kind);
         let returns = kinds.any(|kind| matches!(kind, TermKind::Return { .. }));
+        if self.calls_apart {
+            return Told { none_yet: !returns || !self.any, calls: returns, ..Told::default() };
+        }
         let called = self.called.get(index).copied().unwrap_or(true);
         Told { none_yet: !called && !returns, ..Told::default() }
     }
@@ -93,6 +116,11 @@ impl Waits {
         known.into_iter().map(Option::unwrap_or_default).collect()
     }
 
+    /// What is known here.
+    pub(super) fn told(&self) -> Told {
+        self.told
+    }
+
     /// At a block to which other ways may lead.
     pub fn come_in(&mut self, told: Told) {
         self.told = told;
@@ -121,6 +149,11 @@ impl Waits {
     /// True where a code of the builder had a P since, which is taken to be no wait.
     pub fn after_builders(&self) -> bool {
         self.told.builders
+    }
+
+    /// True where a call had a P since, which is taken to be no wait.
+    pub fn after_calls(&self) -> bool {
+        self.told.calls
     }
 
     /// Takes the P of a block: a wait in thousandths or in seconds, or what is none.
@@ -157,7 +190,7 @@ impl Waits {
 
 impl Told {
     /// What two ways agree in.
-    fn met(self, other: Self) -> Self {
+    pub(super) fn met(self, other: Self) -> Self {
         let none_yet = self.none_yet && other.none_yet;
         Self {
             last: self.last.filter(|last| other.last == Some(*last)),
@@ -165,7 +198,13 @@ impl Told {
             doubted: self.doubted || other.doubted,
             offset: none_yet && (self.offset || other.offset),
             builders: self.builders || other.builders,
+            calls: self.calls || other.calls,
         }
+    }
+
+    /// Takes a call.
+    pub(super) fn call(&mut self) {
+        self.calls = true;
     }
 }
 

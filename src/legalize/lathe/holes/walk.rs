@@ -1,7 +1,10 @@
 //! The walk through the drilling blocks of a program.
 
 use super::all::{All, all, stopped};
+use super::called_waits::Followed;
+use super::known::{Cycle, Turning};
 use super::levels::Levels;
+use super::pecks::Peck;
 use super::rigid::drop_rigid;
 use super::waits::{Waits, other_waits};
 use super::{by_place, by_step, drills, tells_all};
@@ -25,40 +28,6 @@ pub(super) type Refused = (&'static str, &'static str);
 /// What the target does otherwise: what, what to do, the operation, and whether it is asked once for all programs.
 pub(super) type Asked = (&'static str, &'static str, Op, bool);
 
-/// What turns, and how the feed counts, where a block drills.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Turning {
-    /// The last speed, if that is a known number.
-    pub speed: Option<f64>,
-    /// True where a block before gives the speed, as a number or as what a variable holds.
-    pub is_said: bool,
-    /// True where F is a feed a turn.
-    pub by_turn: bool,
-    /// True where the spindle is known to stand, or nothing of the library ever turns it.
-    pub stands: bool,
-}
-
-/// What is known of the cycle in force.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Cycle {
-    /// Where it began along its axis, a coordinate of the program.
-    pub initial: Option<f64>,
-    /// Its retract plane, a coordinate too.
-    pub plane: Option<f64>,
-    /// Its bottom, where it is a place.
-    pub bottom: Option<Expr>,
-    /// The wait that it was told.
-    pub dwell: Option<Expr>,
-    /// The peck that it was told.
-    pub peck: Option<Expr>,
-    /// The code that the target has in force.
-    pub written: Option<Op>,
-    /// True where the coordinates changed since it began.
-    pub shifted: bool,
-    /// True where a move after its last hole ended it on the target.
-    pub is_ended: bool,
-}
-
 /// A block that drills.
 pub(super) struct Hole<'h> {
     pub nc: Nc,
@@ -79,6 +48,8 @@ pub(super) struct Hole<'h> {
     /// What P is told before it.
     pub waits: Waits,
     pub asked: Vec<Asked>,
+    /// How long the peck of a hole of the target lasts, and whether this hole rests on that.
+    pub peck: (Peck, bool),
     /// Blocks that go before it.
     pub before: Vec<Nc>,
     /// Blocks that go after it.
@@ -145,7 +116,9 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
     let stands = !turns(Op::SpindleCw) && !turns(Op::SpindleCcw) && !context.features.has(Feature::Code);
     let mut found: Vec<(usize, Diagnostic)> = Vec::new();
     let (mut is_ended, mut open) = (false, Vec::new());
+    let peck = Peck::of(context.target, context.features.role(Role::CycleQ));
     let entered = may_be_entered(module);
+    let over = (waits.calls_apart() && !entered).then(|| Followed::over(&waits, module));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let states: Vec<Modal> = program.ids().map(|id| facts.at(index, id)).collect();
         let all = all(program, &states);
@@ -154,7 +127,10 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
         let straight = entered_straight(program);
         let begin = Place::keeping_level();
         let places = at_blocks(program, begin, entered);
-        let told = waits.at_blocks((index, program), entered);
+        let told = match &over {
+            Some(over) => program.ids().map(|id| over.at(index, id).copied().unwrap_or_default()).collect(),
+            None => waits.at_blocks((index, program), entered),
+        };
         let mut walk = Walk {
             cycle: Cycle::default(),
             place: begin,
@@ -165,7 +141,8 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             waits: waits.clone(),
             is_ended: false,
             open: Vec::new(),
-            rests: None,
+            rests: BTreeMap::new(),
+            peck,
         };
         walk.waits.come_in(told.first().copied().unwrap_or_default());
         for (at, ((block, mut state), straight)) in
@@ -175,6 +152,8 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 walk.cycle = Cycle::default();
                 walk.place = places.get(at).copied().unwrap_or(begin);
                 (walk.speed, walk.is_said, walk.stands) = (None, false, false);
+            }
+            if !straight || over.is_some() {
                 walk.waits.come_in(told.get(at).copied().unwrap_or_default());
             }
             let mut out = Stmts::with_capacity(block.stmts.len());
@@ -211,8 +190,11 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
                 found.push((index, refused.with_help(CALLS_HELP)));
             }
         }
-        if let Some(span) = walk.rests {
-            context.rests_on_source(index, span, Question::HoleWaitBuilders);
+        for (question, span) in walk.rests.into_values() {
+            match question == Question::HolePeckLasts {
+                true => context.rests_on_target(index, span, question),
+                false => context.rests_on_source(index, span, question),
+            }
         }
         is_ended |= walk.is_ended;
         open.extend(walk.open.into_iter().map(|span| (index, span)));
@@ -242,8 +224,10 @@ struct Walk {
     is_ended: bool,
     /// Holes without a code, of a cycle that other ways lead to too.
     open: Vec<Span>,
-    /// A hole without a wait, where it is taken that P of a builder's code is none.
-    rests: Option<Span>,
+    /// What holes rest on that no source confirms, each with the first hole.
+    rests: BTreeMap<&'static str, (Question, Span)>,
+    /// How long the peck of a hole of the target lasts.
+    peck: Peck,
 }
 
 /// What becomes of a block that drills, and what is asked.
@@ -309,8 +293,12 @@ impl Walk {
                 "give the block a condition, or write its words in the block after it too",
             )));
         }
-        if op.is_waiting_hole() && nc.word(Role::CycleDwell).is_none() && waits.after_builders() {
-            self.rests = self.rests.or(Some(stmt.site.span));
+        if op.is_waiting_hole() && nc.word(Role::CycleDwell).is_none() {
+            let builders = waits.after_builders().then_some(Question::HoleWaitBuilders);
+            let calls = waits.after_calls().then_some(Question::HoleWaitCalls);
+            for question in builders.into_iter().chain(calls) {
+                self.rests.entry(question.fact()).or_insert((question, stmt.site.span));
+            }
         }
         let fresh = before == Some(Op::CycleOff);
         let surface = state.op(Group::SpeedMode) == Some(Op::SurfaceSpeed);
@@ -328,7 +316,7 @@ impl Walk {
             }
             self.cycle = Cycle { initial: level, ..Cycle::default() };
         } else if fresh {
-            self.cycle = Cycle::default();
+            self.cycle = Cycle { pecked: Some(false), ..Cycle::default() };
         } else if self.cycle.shifted {
             return Some(Err((SHIFTED, "end the cycle before it (G80), and write it again after it")));
         }
@@ -349,11 +337,16 @@ impl Walk {
             turning,
             waits,
             asked: Vec::new(),
+            peck: (self.peck, false),
             before: Vec::new(),
             after: Vec::new(),
             rapid: motion == Some(Op::Rapid) && state.op(Group::Motion) == motion,
         };
         let done = if by_steps { by_step::change(&mut hole) } else { by_place::change(&mut hole) };
+        if hole.peck.1 {
+            let question = Question::HolePeckLasts;
+            self.rests.entry(question.fact()).or_insert((question, stmt.site.span));
+        }
         let Ok(times) = done else { return done.err().map(Err) };
         let (nc, asked, lead, tail) = (hole.nc, hole.asked, hole.before, hole.after);
         self.is_ended |= self.cycle.is_ended;
