@@ -4,7 +4,11 @@
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
 //! axes the machine has its profile says, and the moves of the library: X, Y, Z and the rotary ones it moves. Of those that the target does
 //! not have, the ones that the program itself moves. A lathe sends home the axes that its profile lists, else X and Z (docs/lathe.md Z2):
-//! where the profile lists none and the library moves Y or C, the return is refused.
+//! where the profile lists none and the library moves Y or C, the return is refused. C is an axis there only while it is engaged: where it
+//! is not, a word for it is an alarm of the target, so it is named only where it is known to be, and told where it may be.
+//! Counter-example: `G28` before M154, where C turns as the spindle.
+
+mod engaged;
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -13,8 +17,9 @@ use crate::ir::analysis::Vacancy;
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Var};
 use crate::legalize::lathe::steps::has_letters;
 use crate::legalize::{Context, replace_statements};
+use engaged::Engagement;
 use std::cell::LazyCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Nothing is known of arguments.
 static NONE: BTreeSet<Var> = BTreeSet::new();
@@ -77,6 +82,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let may_have =
         |role: &Role| axes.contains(role) || rotary.contains(role) && has_axis(source, *role).is_none();
     let left_out = !turns && further.iter().any(|role| may_have(role) && !taken(*role));
+    let turns_c: Vec<bool> = module.programs.iter().map(engaged::is_named).collect();
+    let engaged = match turns && axes.contains(&Role::C) {
+        true => Engagement::at_returns(module, source, moves(&Role::C)),
+        false => BTreeMap::new(),
+    };
     let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
@@ -91,7 +101,21 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 _ if untold => (Code::NoEquivalent, UNTOLD),
                 _ if letters || distance.is_some() => {
                     restore = distance.filter(|distance| !letters && *distance == Op::Absolute);
-                    name(nc, &own[index], letters);
+                    let c = engaged.get(&(index, span));
+                    let is_axis = |role: &&Role| **role != Role::C || c.is_none_or(|c| c.on && !c.off);
+                    let axes: Vec<Role> = own[index].iter().filter(is_axis).copied().collect();
+                    name(nc, &axes, letters);
+                    let is_told = engaged::is_told(source);
+                    let what = match c {
+                        Some(c) if c.on && c.off => Some(ENGAGED),
+                        Some(c) if c.on && !is_told => Some(TAKEN),
+                        _ => None,
+                    };
+                    if let Some(what) = what {
+                        let told = Diagnostic::new(Code::Conditional, span, what).with_help(ENGAGED_HELP);
+                        let own = is_told && turns_c[index];
+                        context.add_once(index, what, if own { told } else { told.asked_once() });
+                    }
                     (
                         Code::Conditional,
                         "all axes return at the same time; no source says in which order the source moves \
@@ -133,6 +157,10 @@ fn of_lathe(source: &Control, target: &Control, moves: &dyn Fn(&Role) -> bool) -
 const UNTOLD: &str = "a return to the reference position without axes takes all axes home, and which axes the machine has is not known";
 const UNTOLD_HELP: &str =
     "name the axes in this block, or list them in the source's profile: axes = [\"X\", \"Z\", ...]";
+
+const ENGAGED: &str = "this return takes C home where C is engaged, and whether it is, is not known here: it is written without C, as a word for C is an alarm while the spindle turns the part";
+const TAKEN: &str = "this return takes C home, and a word for C is an alarm while the spindle turns the part: C is taken to be engaged here, as it moved before";
+const ENGAGED_HELP: &str = "write H0 into this block if C is engaged there, and U0 W0 if it is not; the codes that engage C and let it go need the names c.axis.on and c.axis.off in the source's profile";
 
 /// Whether a machine has an axis, if its profile lists them.
 fn has_axis(control: &Control, role: Role) -> Option<bool> {

@@ -6,7 +6,7 @@ use crate::control::trace::{EventKind, Trace};
 use std::collections::BTreeMap;
 
 /// The place of C in the list of the axes.
-const C: usize = 5;
+pub(super) const C: usize = 5;
 
 /// A return to the reference position: where that engages C, it does what the code of other machines does.
 pub fn by_return(machine: &mut Machine, named: &[usize], trace: &mut Trace) {

@@ -1,11 +1,13 @@
 //! Returns and machine coordinates of a lathe (Z1 to Z4).
 
+use super::engaging;
 use crate::canon::{Op, Role};
 use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
 
-/// A return without an axis: all axes that the profile lists, else X and Z, go home at once, where the control does so (Z2).
+/// A return without an axis: all axes that the profile lists, else X and Z, go home at once, where the control does so (Z2). C
+/// that a code of the builder engages is no axis until then.
 pub fn without_axes(machine: &mut Machine, which: usize, trace: &mut Trace) -> Result<(), Stop> {
     if machine.rules.turning.two_blocks {
         return Err(Stop::unnamed("a return to the reference point without an axis"));
@@ -14,6 +16,9 @@ pub fn without_axes(machine: &mut Machine, which: usize, trace: &mut Trace) -> R
     let home = machine.references[which];
     let mut to = machine.position;
     for axis in machine.rules.turning.axes.clone() {
+        if axis == engaging::C && machine.rules.turning.c_by_code && !machine.lathe.c_engaged {
+            continue;
+        }
         to[axis] = home[axis];
         machine.round_home(axis);
     }
