@@ -88,6 +88,9 @@ impl Machine {
 
     /// The run-out of a single pass: with two blocks that of a parameter, if the profile gives it and no block changed it (P9).
     pub(super) fn single_chamfer(&self, lead: f64, trace: &mut Trace) -> Option<(f64, f64)> {
+        if self.lathe.runs_straight {
+            return Some((0.0, 0.0));
+        }
         let leads = self.rules.turning.run_out.filter(|_| self.lathe.thread.digits.is_none());
         match self.rules.turning.two_blocks {
             true => leads.map(|leads| self.run_out_left((leads * lead, 45.0), lead)),
@@ -132,6 +135,7 @@ pub fn many(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Resu
     let chamfer = match form {
         true => {
             let [_, leads, _] = form_of(machine)?;
+            let leads = if machine.lathe.runs_straight { 0.0 } else { leads };
             Some(machine.run_out_left((leads * lead, 45.0), lead))
         }
         false if stands_in && machine.rules.turning.run_out.is_none() => return Err(unset("run-out")),
