@@ -108,7 +108,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
         return found;
     }
     let facts = context.modal_facts(module);
-    let holds = context.features.op(Op::SpindleOrient);
+    let holds = related(module, context, |features| features.op(Op::SpindleOrient));
     let mut lost = lost::lost(module, context.source);
     spread(&mut lost, module, context);
     let passes = context.target.skips_same_tool() && !context.source.skips_same_tool();
@@ -124,7 +124,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 skipped: false,
                 ends: run_ends(index, &block.term.kind),
                 started: started[index],
-                holds,
+                holds: holds[index],
                 lost: lost[index],
                 after: &after,
                 again: Vec::new(),
@@ -174,6 +174,18 @@ fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
     let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(starts).collect();
     spread(&mut found, module, context);
     found
+}
+
+/// By program, true where it, one that it calls, or one that calls it, may have something.
+pub(in crate::legalize) fn related(
+    module: &Module,
+    context: &Context<'_>,
+    has: impl Fn(&Features) -> bool,
+) -> Vec<bool> {
+    let own = |index| [context.may_concern(index, &has), false];
+    let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(own).collect();
+    spread(&mut found, module, context);
+    found.into_iter().map(|[has, _]| has).collect()
 }
 
 /// Gives each program what holds of those that it calls, and of those that call it.
@@ -228,7 +240,7 @@ struct Place<'p> {
     ends: bool,
     /// Whether the program, or one that calls it or that it calls, starts it.
     started: [bool; 2],
-    /// True if some program of the library holds the spindle at an angle.
+    /// True if the program, or one that calls it or that it calls, holds the spindle at an angle.
     holds: bool,
     /// True if a stop or a tool change of the program, or of one that it calls or that calls it, may leave it ended: whether it runs
     /// later is not known then.

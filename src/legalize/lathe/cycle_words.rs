@@ -25,6 +25,7 @@ use crate::canon::{Group, Op, Role};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::Summaries;
 use crate::ir::{Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::legalize::codes::pauses::related;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::moves::turned_units::{Turned, may_be_other};
 use crate::legalize::{Context, Modal};
@@ -66,6 +67,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let has = |program: &Program| program.blocks.iter().any(|block| block.stmts.iter().any(runs));
     let with: Vec<usize> = (0..module.programs.len()).filter(|at| has(&module.programs[*at])).collect();
     let (called, main) = (context.modal_facts(module), facts_uncompensated(module, context));
+    let sides = [Op::RadiusLeft, Op::RadiusRight];
+    let compensates = related(module, context, |features| sides.iter().any(|op| features.op(*op)));
     let written = Written::of(module, context.source);
     let summaries = context.summaries(module);
     let calls = if with.is_empty() { Vec::new() } else { context.called(module).pairs(module) };
@@ -81,7 +84,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
         // Who calls one that returns, the library may not know; others begin after a reset or an end (docs/lathe.md Q1).
         let facts = if returns(program) { &called } else { &main };
         let states = program.ids().map(|id| facts.at(*index, id)).collect();
-        let found = each(program, states, (*index, &written, &summaries), units, context);
+        let found =
+            each(program, states, (*index, &written, &summaries, compensates[*index]), units, context);
         all.push((*index, found));
     }
     tell(all, &calls, module, context);
@@ -91,7 +95,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
 fn each(
     program: &mut Program,
     states: Vec<Modal>,
-    (index, written, summaries): (usize, &Written, &Summaries),
+    (index, written, summaries, compensates): (usize, &Written, &Summaries, bool),
     (other_unit, turned): ([bool; 2], Option<&Control>),
     context: &mut Context<'_>,
 ) -> Found {
@@ -110,7 +114,7 @@ fn each(
         turned: turned.and_then(Turned::of),
         modal: context.features.has(Feature::Modal),
         in_steps: context.features.op(Op::Incremental),
-        compensates: [Op::RadiusLeft, Op::RadiusRight].iter().any(|op| context.features.op(*op)),
+        compensates,
         set: Vec::new(),
         place: Place::default(),
         starts: Starts::default(),
@@ -190,7 +194,7 @@ struct Run<'c> {
     modal: bool,
     /// True where words of a place may be increments, by a mode.
     in_steps: bool,
-    /// True where the nose radius is compensated somewhere.
+    /// True where the program, or one that calls it or that it calls, compensates the nose radius.
     compensates: bool,
     set: Vec<Set>,
     place: Place,
