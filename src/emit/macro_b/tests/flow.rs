@@ -101,8 +101,8 @@ fn conditions_are_joined_and_turned_round() {
     let not = Cond::Not(Box::new(Cond::Or(vec![both(), gt(3, 0.0)])));
     assert_eq!(head("haas", &program(not, 2, 1)), "IF [[[#1 LE 0] OR [#2 LE 0]] AND [#3 LE 0]]");
     let sums = || compare(Relation::Equal, add(v(1), n(1.0)), mul(neg(v(2)), n(-3.0)));
-    assert_eq!(head("fanuc", &program(sums(), 2, 1)), "IF [#1+1 EQ [-#2]*[-3]]");
-    assert_eq!(head("haas", &program(sums(), 2, 1)), "IF [#1+1 EQ [-#2]*[-3]]");
+    assert_eq!(head("fanuc", &program(sums(), 2, 1)), "IF [[#1+1] EQ [-#2]*[-3]]");
+    assert_eq!(head("haas", &program(sums(), 2, 1)), "IF [[#1+1] EQ [-#2]*[-3]]");
     let vacant = compare(Relation::NotEqual, v(1), Expr::Vacant);
     assert_eq!(head("fanuc", &program(vacant, 2, 1)), "IF [#1 NE #0]");
     let signs = compare(Relation::Less, v(1), n(-5.0));
