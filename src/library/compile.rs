@@ -69,11 +69,12 @@ pub(super) fn make(
     let mut naming = naming(&module, &registers, &numbers.of);
     naming.set_marks(marks, continues);
     found.resize_with(count, Vec::new);
-    found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
-    // The conversion waits there: whether the source read earlier, and meant to, is one question for all programs.
+    // The conversion waits there, or says where it does not: whether the source read earlier, and meant to, is one question
+    // for all programs.
     let early = found.iter_mut().enumerate().filter(|(program, _)| waiting.contains(program));
     let early = early.flat_map(|(_, all)| all).filter(|finding| finding.code == Code::EarlyRead);
     early.for_each(|finding| finding.once = true);
+    found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
     let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];
     if let Some(fault) = fault {
         found.iter_mut().for_each(|all| {

@@ -29,9 +29,9 @@ State it in the block or just before it."
 State the mode in the block, or check the programs that are named."
 
     "0314" EarlyRead Review "may be read before earlier moves are done"
-"The control reads ahead: a statement that reads a position, an input or a counter may get its value from before the last moves. The conversion reads it after they are done. If the program means that too, nothing changes.
+"The control reads ahead: a statement that reads a position, an input or a counter may get its value from before the last moves. The conversion has a wait before it where the target reads ahead too, so it reads it after they are done. If the program means that too, nothing changes. Where no wait can be written, as under cutter compensation on some targets, each such place is reported, and says so: there the target may read an old value.
 
-If it does, put a wait before the statement."
+If the program means the value after the moves, put a wait before the statement; cancel the compensation first where that is reported."
 
     "0315" Indexer Error "sends code to the maker's indexer"
 "The statement sends text to a device that only this maker's controls have. The text has no meaning elsewhere.

@@ -37,7 +37,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !waits && !limits && stops && early {
         let come_back = may_come_back(module);
         for program in module.programs.iter_mut().filter(|program| is_limited(program)) {
-            hold(program, come_back, false);
+            hold(program, come_back, false, None);
         }
     }
     let compensates = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(compensates);

@@ -7,6 +7,7 @@ pub(in crate::legalize) mod beside_moves;
 pub(in crate::legalize) mod by_number;
 pub(in crate::legalize) mod c_axis;
 pub(in crate::legalize) mod code_chains;
+mod compensated;
 pub(in crate::legalize) mod forbidden;
 mod found_codes;
 mod left_zeros;

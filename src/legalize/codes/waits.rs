@@ -4,21 +4,19 @@
 //! reads what moves change, or that switches an output, lets it see and do what it would where the text has it. A wait
 //! computes nothing. Where no move is to come it waits for nothing. A mill that has no wait is told to read no further ahead
 //! than one block, with empty blocks to hold it back, and as far as before after them. Side condition: it takes no such limit
-//! under cutter compensation, so programs that have any are left as they are. Counter-example: `G1 G31 X50.`, `V1=AX`, which
+//! under cutter compensation: where that may be in force (`compensated`), nothing is put in, and each such place is reported. Counter-example: `G1 G31 X50.`, `V1=AX`, which
 //! reads where the axes were when the probe began.
 
-use super::by_number::numbers;
+use super::compensated::{Compensated, Effect};
 use super::lookahead::limit;
 use crate::canon::{Op, Sys};
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question};
-use crate::ir::analysis::{Assigned, Cfg, Summaries, calls_of, may_come_back, modal_bodies};
-use crate::ir::{
-    Block, BlockId, Callee, Expr, Module, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
-};
+use crate::ir::analysis::{Cfg, may_come_back, modal_bodies};
+use crate::ir::{Block, BlockId, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
-use foldhash::HashMap;
-use std::cell::LazyCell;
+use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// True if the library reads state, and the target reads it early unless it is told to wait.
@@ -47,40 +45,67 @@ fn reads_early(target: &Control) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let come_back = may_come_back(module);
     let limits = takes_limit(context);
-    let compensates: Vec<bool> = match limits {
-        true => {
-            let summaries = context.summaries(module);
-            let numbered = module.programs.iter().enumerate();
-            let begin = numbered.map(|(index, program)| compensates(index, program, &summaries, context));
-            in_touch(module, begin.collect())
-        }
-        false => Vec::new(),
-    };
+    let summaries = limits.then(|| context.summaries(module));
+    let compensated = summaries.map(|summaries| Compensated::of(module, &summaries, context));
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
-        match compensates.get(index) {
-            Some(true) => continue,
-            Some(false) => context.waiting.extend(context.origins.get(index)),
-            None => {}
+        if limits {
+            context.waiting.extend(context.origins.get(index));
         }
-        changed |= hold(program, come_back, limits);
+        let (more, open) = hold(program, come_back, limits, compensated.as_ref().map(|all| (index, all)));
+        changed |= more;
+        for span in open {
+            let told = Diagnostic::new(Code::EarlyRead, span, OPEN).with_help(OPEN_HELP);
+            context.add(index, told);
+        }
+    }
+    for (index, span) in compensated.into_iter().filter(|_| changed).flat_map(|all| all.supposed) {
+        context.add(index, Diagnostic::new(Code::Conditional, span, SUPPOSED).with_help(SUPPOSED_HELP));
     }
     changed
 }
 
-/// Waits in a program before what would be early, by a limit or a wait; true where any were put in.
-pub(super) fn hold(program: &mut Program, come_back: bool, limits: bool) -> bool {
+const SUPPOSED: &str = "waits before places that read where the machine is were written as if this computed code began no cutter compensation: \
+     the target takes no limit on reading ahead then";
+
+const SUPPOSED_HELP: &str = "make sure that the code is none of those of cutter compensation";
+
+const OPEN: &str = "no wait could be written here, because cutter compensation may be in force: the target takes no limit on reading \
+     ahead then. It may read this before the moves before it are done, and act on an old value";
+
+const OPEN_HELP: &str = "cancel the compensation before this block (in every program that calls this one, too), or read the value \
+     where none is in force";
+
+/// Waits in a program before what would be early, by a limit or a wait; true where any were put in. Yields the places too that
+/// compensation leaves without one.
+pub(super) fn hold(
+    program: &mut Program,
+    come_back: bool,
+    limits: bool,
+    compensated: Option<(usize, &Compensated)>,
+) -> (bool, BTreeSet<Span>) {
     let before = before(program, come_back, limits);
     // Statements after a wait are at their place until the next move.
     let mut left: Vec<bool> = Vec::with_capacity(before.len());
     let mut changed = false;
-    for (block, before) in program.blocks.iter_mut().zip(before) {
+    let mut open = BTreeSet::new();
+    for (at, (block, before)) in program.blocks.iter_mut().zip(before).enumerate() {
         // A block that comes later in the text has not been looked at.
         let mut waited = before.is_some_and(|all| all.iter().all(|at| left.get(*at) == Some(&true)));
-        changed |= look(block, &mut waited, limits);
+        let (in_force, effects) = compensated.map_or((false, &[][..]), |(index, all)| all.at(index, at));
+        let mut under = Under { in_force, effects, open: &mut open };
+        changed |= look(block, &mut waited, limits, &mut under);
         left.push(waited);
     }
-    changed
+    (changed, open)
+}
+
+/// Whether compensation may be in force, while a block is gone through.
+struct Under<'a> {
+    in_force: bool,
+    effects: &'a [(usize, Effect)],
+    /// The places that had to stay without a wait.
+    open: &'a mut BTreeSet<Span>,
 }
 
 /// By block: those that lead there and do no more than go on, if nothing else leads there. Where a limit holds reading back, those of a
@@ -102,80 +127,22 @@ fn before(program: &Program, come_back: bool, limits: bool) -> Vec<Option<Vec<us
     program.ids().map(all).collect()
 }
 
-/// True for a program in which cutter compensation may begin.
-fn compensates(index: usize, program: &Program, summaries: &Summaries, context: &Context<'_>) -> bool {
-    let (source, origin) = (context.source, context.origin(index));
-    let begins = |op: Op| matches!(op, Op::RadiusLeft | Op::RadiusRight);
-    let assigned = LazyCell::new(|| Assigned::new(program, summaries));
-    program.ids().zip(&program.blocks).any(|(id, block)| {
-        block.stmts.iter().enumerate().any(|(at, stmt)| {
-            let items = stmt.kind.nc().map_or(&[][..], |nc| &nc.items);
-            items.iter().any(|item| match item {
-                NcItem::Op(op) => begins(*op),
-                NcItem::Code('G', value) => {
-                    let known = context.computed_codes.get(&(origin, stmt.site.span)).cloned().flatten();
-                    let found = || {
-                        let all = numbers(value, &assigned, id, at, source)?;
-                        Some(all.iter().map(|n| n.number).collect::<Vec<_>>())
-                    };
-                    known.or_else(found).is_none_or(|all| {
-                        let mut rows = all.iter().filter_map(|number| source.code('G', *number, &[]));
-                        rows.any(|row| begins(row.op))
-                    })
-                }
-                _ => false,
-            })
-        })
-    })
-}
-
-/// Those that call one of these programs, or that one of them calls, through others too: compensation is in force there as well.
-fn in_touch(module: &Module, mut all: Vec<bool>) -> Vec<bool> {
-    if !all.contains(&true) {
-        return all;
-    }
-    let numbered = module.programs.iter().enumerate();
-    let named: HashMap<_, _> = numbered.filter_map(|(at, p)| Some((p.name.as_ref()?, at))).collect();
-    let mut touch: Vec<Vec<usize>> = vec![Vec::new(); all.len()];
-    let mut anyone = false;
-    for (caller, program) in module.programs.iter().enumerate() {
-        for call in program.blocks.iter().flat_map(calls_of) {
-            match &call.callee {
-                Callee::Program(name) => {
-                    if let Some(callee) = named.get(name) {
-                        touch[caller].push(*callee);
-                        touch[*callee].push(caller);
-                    }
-                }
-                Callee::Block(_) | Callee::Cycle(_) => {}
-                Callee::Computed(_) => anyone = true,
-            }
-        }
-    }
-    if anyone {
-        return vec![true; all.len()];
-    }
-    let mut left: Vec<usize> = (0..all.len()).filter(|at| all[*at]).collect();
-    while let Some(at) = left.pop() {
-        for other in &touch[at] {
-            if !std::mem::replace(&mut all[*other], true) {
-                left.push(*other);
-            }
-        }
-    }
-    all
-}
-
 /// Waits in a block; `waited` tells whether nothing moved since the last wait, `limits` how the target waits.
-fn look(block: &mut Block, waited: &mut bool, limits: bool) -> bool {
+fn look(block: &mut Block, waited: &mut bool, limits: bool, under: &mut Under<'_>) -> bool {
     let mut changed = false;
     let mut out = Stmts::with_capacity(block.stmts.len());
-    for stmt in std::mem::take(&mut block.stmts) {
+    for (at, stmt) in std::mem::take(&mut block.stmts).into_iter().enumerate() {
         let stands = stmt.site.skip.is_none();
-        if !*waited && is_early(&stmt.kind, limits) {
+        let is_early = !*waited && is_early(&stmt.kind, limits);
+        if is_early && under.in_force {
+            under.open.insert(stmt.site.span);
+        } else if is_early {
             wait(&stmt.site, limits, &mut out);
             // One that may be skipped is no wait for what comes after it.
             (*waited, changed) = (stands, true);
+        }
+        if let Some((_, effect)) = under.effects.iter().find(|(place, _)| *place == at) {
+            under.in_force = *effect == Effect::Begins;
         }
         match &stmt.kind {
             StmtKind::Sync => *waited = stands,
@@ -187,7 +154,9 @@ fn look(block: &mut Block, waited: &mut bool, limits: bool) -> bool {
     }
     let mut early = false;
     block.term.kind.exprs(&mut |e| early |= reads(e, limits));
-    if early && !*waited {
+    if early && !*waited && under.in_force {
+        under.open.insert(block.term.site.span);
+    } else if early && !*waited {
         wait(&block.term.site, limits, &mut out);
         (*waited, changed) = (true, true);
     }
