@@ -103,11 +103,16 @@ fn drop_quality(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
         return false;
     }
-    nc.items.retain(|item| !is_mode(item) && !matches!(item, NcItem::Word(Role::Builder | Role::Quality, _)));
+    nc.items.retain(|item| !is_mode(item) && !matches!(item, NcItem::Word(role, _) if is_of_mode(*role)));
     let what = "a mode of how smoothly or how fast a path is followed is dropped: the target follows it as it is set";
     let told = Diagnostic::new(Code::QualityDropped, span, what);
     context.add_once(index, what, told.assuming(Predicate::Substitute(Op::PathQuality)));
     true
+}
+
+/// True for a word of a mode of quality.
+fn is_of_mode(role: Role) -> bool {
+    matches!(role, Role::Builder | Role::Quality | Role::Act1 | Role::Act2)
 }
 
 /// Puts substitutes in the place of operations that the target lacks.
