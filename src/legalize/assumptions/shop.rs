@@ -192,12 +192,16 @@ fn feed_of_rotary(index: usize, span: Span, context: &mut Context<'_>) {
     if let [Some(ours), Some(theirs)] = &known
         && ours.value != theirs.value
     {
-        let surface = if ours.value == "surface" { ours } else { theirs };
+        let (surface, control) = match ours.value == "surface" {
+            true => (ours, context.source),
+            false => (theirs, context.target),
+        };
         let note = surface.origin.note.as_deref().map_or(String::new(), |note| format!(" ({note})"));
         let finding = Diagnostic::new(Code::NoEquivalent, span, FEEDS);
         let help = format!(
-            "write the feed in inverse time, with G93; or, if both machines count alike, write rotary.feed under \
-             [behaviours] in the profile of one of them{note}"
+            "write the feed in inverse time, with G93; or, if the {} counts degrees as well, write rotary.feed = \"degrees\" under \
+             [behaviours] in its profile{note}",
+            control.dialect().title
         );
         return context.add_once(index, FEEDS, finding.with_help(help));
     }

@@ -3,7 +3,7 @@
 //! Law: an axis turns by as much as it turned by, and the same way. On a control of signs an absolute word is a place within one
 //! turn, and its sign the way there, that of zero too where the control reads it; elsewhere it is what the axis has turned by, or the shorter way is taken. Side conditions:
 //! where the axis stands before is known from the text, and the angle is a number; less than a whole turn; less than half of one
-//! where the shorter way is taken. From there to a control that turns back by all turns the words stay: a rapid move to an angle ends there
+//! where the shorter way is taken. From there to a control that turns back by all turns the words stay: a rapid move to an angle, that to a hole too, ends there
 //! either way, and is told of; a cut must turn by less than half a turn, within one. What is in increments stays. Where how many whole turns were made before is not known, but how
 //! far it turns is, and where the shorter way is another, the target turns by that in increments, if the block moves nothing else.
 //! Counter-example: `A360.` after `A0.`, a whole turn, which no place with a sign says.
@@ -95,10 +95,13 @@ struct Kind {
     rapid: bool,
 }
 
-/// True for a move at rapid that drills nothing.
+/// True for a move at rapid, and for one to the place of a hole, which goes at rapid whatever is in force.
 fn is_rapid(stmt: &Stmt, state: &Modal) -> bool {
-    let rapid = state.op(Group::Motion) == Some(Op::Rapid) && state.op(Group::Cycle) == Some(Op::CycleOff);
-    rapid && !state.may_call() && stmt.kind.nc().is_some_and(Nc::moves)
+    let Some(nc) = stmt.kind.nc() else { return false };
+    let cycle = state.op(Group::Cycle);
+    let to_hole = cycle.is_some_and(Op::is_cycle) && nc.ops().all(|op| op.group() != Group::Motion);
+    let rapid = state.op(Group::Motion) == Some(Op::Rapid) && cycle == Some(Op::CycleOff);
+    (rapid || to_hole) && !state.may_call() && nc.moves()
 }
 
 /// What was done to a block.
