@@ -14,12 +14,11 @@
 mod after;
 mod kinds;
 mod lost;
+mod related;
 
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Ends;
-use crate::ir::analysis::CallGraph;
-use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
@@ -27,7 +26,9 @@ use crate::text::Span;
 use after::After;
 pub(in crate::legalize) use kinds::pause_of;
 use kinds::{ends_run, has_messages, restarts, stops_in, tool_after, written};
-use std::collections::{BTreeMap, BTreeSet};
+pub(in crate::legalize) use related::related;
+use related::spread;
+use std::collections::BTreeMap;
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
 pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force, and this block does something \
@@ -174,32 +175,6 @@ fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
     let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(starts).collect();
     spread(&mut found, module, context);
     found
-}
-
-/// By program, true where it, one that it calls, or one that calls it, may have something.
-pub(in crate::legalize) fn related(
-    module: &Module,
-    context: &Context<'_>,
-    has: impl Fn(&Features) -> bool,
-) -> Vec<bool> {
-    let own = |index| [context.may_concern(index, &has), false];
-    let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(own).collect();
-    spread(&mut found, module, context);
-    found.into_iter().map(|[has, _]| has).collect()
-}
-
-/// Gives each program what holds of those that it calls, and of those that call it.
-fn spread(found: &mut [[bool; 2]], module: &Module, context: &Context<'_>) {
-    let mut callees = vec![BTreeSet::new(); found.len()];
-    for (caller, callee) in context.called(module).pairs(module) {
-        callees[caller].insert((callee, false));
-    }
-    let graph = CallGraph::new(callees);
-    let either = |mine: &mut [bool; 2], theirs: &[bool; 2], _| {
-        mine.iter_mut().zip(theirs).fold(false, |changed, (mine, theirs)| mine.join(theirs) || changed)
-    };
-    graph.bottom_up(found, either);
-    graph.top_down(found, either);
 }
 
 /// Lays down a stop, and before it what ends what is running; the words beside the stop come first.
