@@ -74,7 +74,13 @@ pub(super) fn make(
     let early = found.iter_mut().enumerate().filter(|(program, _)| waiting.contains(program));
     let early = early.flat_map(|(_, all)| all).filter(|finding| finding.code == Code::EarlyRead);
     early.for_each(|finding| finding.once = true);
-    found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
+    for (all, more) in found.iter_mut().zip(legal) {
+        // A place that has no wait says so itself.
+        let meets = |own: &Diagnostic, span: Span| own.span.start < span.end && span.start < own.span.end;
+        let told = |span| more.iter().any(|own| own.code == Code::EarlyRead && meets(own, span));
+        all.retain(|finding| finding.code != Code::EarlyRead || !told(finding.span));
+        add_new(all, more);
+    }
     let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];
     if let Some(fault) = fault {
         found.iter_mut().for_each(|all| {

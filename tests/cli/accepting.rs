@@ -26,9 +26,9 @@ const OLD: &str = "dialect = \"fanuc\"\n[behaviours]\n\"power.off.values\" = \"u
 
 const NEW: &str = "dialect = \"haas\"\n";
 
-/// A program that is for review: a variable that the machine keeps (MG0404), and a place that is read early (MG0314), since it
-/// compensates and the machine cannot be told to wait. It calls O9000, which calls O9001.
-const ASKS: &str = "%\nO2000\nG20 G17 G90 G40 G80 G94 G54\nG0 X#100\nG31 Z-1. F5.\nG0 Z#5063\nG41 D1 G1 Y3. F5.\nG40 Y4.\nG65 P9000 A1.\nM30\n%\n";
+/// A program that is for review: a variable that the machine keeps (MG0404), and a place that is read early (MG0314), since cutter
+/// compensation is in force there and the machine cannot be told to wait. It calls O9000, which calls O9001.
+const ASKS: &str = "%\nO2000\nG20 G17 G90 G40 G80 G94 G54\nG0 X#100\nG41 D1 G1 Y3. F5.\nG1 Z#5043\nG40 Y4.\nG65 P9000 A1.\nM30\n%\n";
 
 const CALLED: &str = "%\nO9000\nG0 Y#1\nM98 P9001\nM99\n%\n";
 const BELOW: &str = "%\nO9001\nG0 Y2.\nM99\n%\n";
@@ -76,7 +76,7 @@ fn what_is_accepted_is_not_asked_again() {
     let run = shop.run("accept --all --who Ann --why measured");
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(
-        run.out.contains("accepted  programs/asks.nc O2000, shop to new: MG0314, line 6: G0 Z#5063"),
+        run.out.contains("accepted  programs/asks.nc O2000, shop to new: MG0314, line 6: G1 Z#5043"),
         "{}",
         run.out
     );
@@ -140,7 +140,7 @@ fn a_change_of_what_it_concerns_asks_again() {
     let shop = accepted();
     assert_eq!(summary(&shop), ALL_ACCEPTED);
     let changes: [(&str, &str, String, &str); 5] = [
-        ("programs/asks.nc", ASKS, ASKS.replace("Z-1.", "Z-2."), "another text of the program"),
+        ("programs/asks.nc", ASKS, ASKS.replace("Y4.", "Y5."), "another text of the program"),
         ("programs/called.nc", CALLED, CALLED.replace("Y#1", "Y[#1+1.]"), "another text of the program"),
         ("programs/below.nc", BELOW, BELOW.replace("Y2.", "Y3."), "another text of the program"),
         ("new.toml", NEW, format!("{NEW}units = \"inch\"\n"), "for other machines"),
@@ -189,7 +189,7 @@ fn programs_of_one_file_have_their_own_answers() {
     shop.write("programs/asks.nc", file(CALLED, ASKS, &other).as_bytes());
     std::fs::remove_file(shop.path("programs/called.nc")).unwrap();
     let run = shop.run("accept --all --who Ann");
-    assert!(run.out.contains("programs/asks.nc O2001, shop to new: MG0314, line 19: "), "{}", run.out);
+    assert!(run.out.contains("programs/asks.nc O2001, shop to new: MG0314, line 18: "), "{}", run.out);
     let both = "2 accepted, 0 for review";
     assert!(summary(&shop).contains(both), "{}", summary(&shop));
     // A line more in the last program is the first one's no matter.
@@ -204,7 +204,7 @@ fn programs_of_one_file_have_their_own_answers() {
     shop.write("programs/asks.nc", file(&longer, &apart(ASKS), &apart(&other)).as_bytes());
     assert!(summary(&shop).contains(both), "{}", summary(&shop));
     // One more place at which the same is asked.
-    let more = apart(ASKS).replace("G0 Z#5063", "G0 Z#5063\nG0 X#5063");
+    let more = apart(ASKS).replace("G1 Z#5043", "G1 Z#5043\nG1 X#5043");
     shop.write("programs/asks.nc", file(&longer, &more, &apart(&other)).as_bytes());
     assert!(summary(&shop).contains("1 accepted, 1 for review"), "{}", summary(&shop));
 }
@@ -585,7 +585,7 @@ fn entries_in_another_form_are_left_alone() {
     assert_eq!(summary(&shop), ALL_ACCEPTED);
     shop.write("programs/more.nc", ASKS.replace("O2000", "O2002").as_bytes());
     shop.fails("accept --all --who Bob", &["macroglot.toml", "[[accepted]]"]);
-    shop.write("programs/asks.nc", ASKS.replace("Z-1.", "Z-2.").as_bytes());
+    shop.write("programs/asks.nc", ASKS.replace("Y4.", "Y5.").as_bytes());
     let run = shop.run("accept programs/asks.nc --who Bob");
     assert!(run.out.contains("0 accepted, 2 renewed, 0 dropped"), "{}{}", run.out, run.err);
 }
