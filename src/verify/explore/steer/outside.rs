@@ -87,12 +87,6 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
     ];
     let machine = machine.into_iter().filter(|(_, is_read)| *is_read).map(|(input, _)| input);
     let cells = inputs.cells.keys().filter_map(|(state, subscripts)| Input::of_cell(*state, subscripts));
-    // Tools are not worn where the target keeps no wear apart.
-    let cells = cells.filter(|input| match input {
-        Input::LengthWear(_) => !inputs.unworn_lengths,
-        Input::RadiusWear(_) => !inputs.unworn,
-        _ => true,
-    });
     let state = (0..scenario.state.len()).map(Input::State);
     let answers = (0..if inputs.asks { FIRST.min(scenario.answers.len()) } else { 0 }).map(Input::Answer);
     let probes = (0..PROBES).map(Input::Probe);
@@ -107,6 +101,12 @@ pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec
         .chain(state)
         .chain(probes)
         .chain(start)
+        // Tools are not worn where the target keeps no wear apart.
+        .filter(|input| match input {
+            Input::LengthWear(_) => !inputs.unworn_lengths,
+            Input::RadiusWear(_) => !inputs.unworn,
+            _ => true,
+        })
         .take(MOST_INPUTS);
     let mut once: Vec<Input> = Vec::new();
     for input in all {
@@ -283,7 +283,23 @@ fn date_at(day: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{date_at, day_of, seconds_of, time_at};
+    use super::{Input, date_at, day_of, inputs_of, seconds_of, time_at};
+    use crate::control::Scenario;
+    use crate::verify::explore::inputs::Inputs;
+
+    /// What a run came to by computed numbers is no exception.
+    #[test]
+    fn wear_stays_as_it_is_where_the_target_keeps_none() {
+        let reached = [Input::RadiusWear(3), Input::LengthWear(3), Input::Radius(3)];
+        let worn = |unworn: bool, unworn_lengths: bool| {
+            let inputs = Inputs { unworn, unworn_lengths, ..Inputs::default() };
+            let all = inputs_of(&inputs, &reached, &Scenario::default());
+            reached.clone().map(|input| all.contains(&input))
+        };
+        assert_eq!(worn(false, false), [true, true, true]);
+        assert_eq!(worn(true, false), [false, true, true]);
+        assert_eq!(worn(false, true), [true, false, true]);
+    }
 
     #[test]
     fn times_of_day() {
