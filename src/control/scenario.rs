@@ -42,7 +42,7 @@ pub struct Scenario {
     pub external_shift: Axes,
     /// The tool table: offset values by number.
     pub tools: Table<Tool>,
-    /// How the rows stand in both tables, where one machine has one number a row for lengths and radii; none where neither has.
+    /// How the rows stand in both tables, where one machine has one number a row for lengths and radii; none if neither has.
     #[serde(skip)]
     pub one_table: Option<Arc<SharedRows>>,
     /// The tool in the spindle at the start.

@@ -11,7 +11,7 @@ pub const TABLE_ROWS: [&str; 2] = ["setting.offset_lengths", "setting.offset_rad
 pub struct TableRows(Vec<(u32, u32)>);
 
 impl TableRows {
-    /// Reads `1-30, 41`; none of what is no list of rows.
+    /// Reads `1-30, 41`; none if the text is no list of rows.
     pub fn parse(text: &str) -> Option<Self> {
         let parts = text.split([',', ' ']).filter(|part| !part.is_empty());
         let run = |part: &str| {

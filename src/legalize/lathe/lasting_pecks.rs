@@ -24,7 +24,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// What is known of the peck of the cycle in force.
 #[derive(Clone, Debug, Default)]
 struct Known {
-    /// Whether a hole of it had one; none where that is not known.
+    /// Whether a hole of it had one; none if that is not known.
     had: Option<bool>,
     /// The one that was told last, if that is a number.
     peck: Option<Expr>,

@@ -18,9 +18,9 @@ use std::sync::Arc;
 pub(super) struct Left {
     /// What it is.
     pub what: CycleSetting,
-    /// The setting that says it on the target; none where the cycle itself has it so.
+    /// The setting that says it on the target; none if the cycle itself has it so.
     pub name: Option<Arc<str>>,
-    /// What the source has in its place; none where that is computed.
+    /// What the source has in its place; none if that is computed.
     pub value: Option<f64>,
     /// The unit of that where it is not the one of the target's profile.
     pub unit: Option<&'static str>,

@@ -150,7 +150,7 @@ fn ask_of_globals(module: &Module, registers: &Registers, context: &mut Context<
     }
 }
 
-/// The library as it is before programs are called that are no part of it; none where none is.
+/// The library as it is before programs are called that are no part of it; none if no such program is called.
 fn cut(module: &Module) -> Option<Module> {
     let known = standing::known(module);
     let is_outside = |kind: &TermKind| match kind {

@@ -86,7 +86,7 @@ impl Text<'_, '_> {
     fn done(&self, block: &Block, items: &[Item]) -> Option<(f64, String)> {
         let first = items.iter().find(|item| !says_nothing(item))?;
         match &first.kind {
-            ItemKind::Goto(target) => self.alarm_from(self.place(target)?),
+            ItemKind::Goto(target) => self.alarm_from(place_in(self.blocks, target)?),
             ItemKind::Assign { target, value, by_sign: false } => self.alarm(block, target, value),
             _ => None,
         }
@@ -100,7 +100,7 @@ impl Text<'_, '_> {
                 [] if block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_))) => return None,
                 [] => at += 1,
                 [item, ..] => match &item.kind {
-                    ItemKind::Goto(target) => at = self.place(target)?,
+                    ItemKind::Goto(target) => at = place_in(self.blocks, target)?,
                     ItemKind::Assign { target, value, by_sign: false } => {
                         return self.alarm(block, target, value);
                     }
@@ -125,18 +125,18 @@ impl Text<'_, '_> {
         let shown: Vec<_> = shown.collect();
         (number.value >= 1.0).then(|| (number.value, shown.join(" ")))
     }
+}
 
-    /// Where a jump goes, if one block alone has that number or label.
-    fn place(&self, to: &Target) -> Option<usize> {
-        let is_it = |item: &Item| match (to, &item.kind) {
-            (Target::Sequence(to), ItemKind::Sequence { number, .. }) => number == to,
-            (Target::Label(to), ItemKind::Label(label)) => label == to,
-            (Target::Label(Label::Number(to)), ItemKind::Sequence { number, .. }) => number == to,
-            _ => false,
-        };
-        let mut all = self.blocks.iter().enumerate().filter(|(_, block)| block.items.iter().any(is_it));
-        all.next().filter(|_| all.next().is_none()).map(|(at, _)| at)
-    }
+/// The block that a jump goes to, if one block alone has that number or label.
+pub(super) fn place_in(blocks: &[Block], to: &Target) -> Option<usize> {
+    let is_it = |item: &Item| match (to, &item.kind) {
+        (Target::Sequence(to), ItemKind::Sequence { number, .. }) => number == to,
+        (Target::Label(to), ItemKind::Label(label)) => label == to,
+        (Target::Label(Label::Number(to)), ItemKind::Sequence { number, .. }) => number == to,
+        _ => false,
+    };
+    let mut all = blocks.iter().enumerate().filter(|(_, block)| block.items.iter().any(is_it));
+    all.next().filter(|_| all.next().is_none()).map(|(at, _)| at)
 }
 
 /// True for what is written and does nothing.

@@ -13,9 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The registers of one argument.
 #[derive(Clone, Debug)]
 struct Place {
-    /// The register that holds it; none where the program asks no more than whether it is given.
+    /// The register that holds it; none if the program asks no more than whether it is given.
     value: Option<String>,
-    /// The one that says whether it has a value; none where nothing asks for it, or where all callers give it.
+    /// The one that says whether it has a value; none if nothing asks for it, or where all callers give it.
     flag: Option<String>,
     /// True where every call gives it a value.
     always: bool,

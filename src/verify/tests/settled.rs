@@ -197,6 +197,8 @@ fn what_may_come_from_outside_is_not_set_aside() {
         "#100=3\n#3006=1(SET #100)\nIF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
         "IF[#4005EQ95]GOTO5\nG1X1.F9.",
         "#100=3\n#102=100\nIF[#501GT2]GOTO4\n#[#102]=2\nN4IF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
+        // A return to a block that it names passes blocks by.
+        "#100=3\n/M99P4\n#100=2\nN4IF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
         // A program that nobody knows.
         "#100=3\nIF[#501NE77]GOTO4\nG65P9810X1.\nN4IF[SIN[#100]EQ.1234]GOTO5\nG1X1.F9.",
         // A number that a run may pass by, or set again.

@@ -29,7 +29,7 @@ pub(super) struct Cycle {
     pub dwell: Option<Expr>,
     /// The peck that it was told.
     pub peck: Option<Expr>,
-    /// Whether a hole of it has had a peck; none where that is not known.
+    /// Whether a hole of it has had a peck; none if that is not known.
     pub pecked: Option<bool>,
     /// The code that the target has in force.
     pub written: Option<Op>,

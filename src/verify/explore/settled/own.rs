@@ -4,13 +4,14 @@
 //! takes an edit of its text. A number that a block writes is the program's own. It is not where a run may pass that block by,
 //! or come to it again, for something from outside: all that stands between a jump and its label is taken to be so.
 
+use super::super::alarms::place_in;
 use super::exposed::exposed;
 use super::{Node, Rests};
 use crate::canon::Op;
 use crate::control::trace::EventKind;
 use crate::control::{ProgramRef, Run};
 use crate::dialect::Control;
-use crate::syntax::{Block, Expr, ExprKind, Item, ItemKind, Label, Target, for_each_item};
+use crate::syntax::{Block, Expr, ExprKind, Item, ItemKind, Target, for_each_item};
 use crate::text::Span;
 use crate::verify::sides::{Side, name_of};
 use std::collections::BTreeSet;
@@ -67,7 +68,7 @@ impl<'t> Own<'t> {
             .map(|other| side.text(other))
             .collect();
         let text = side.text(program);
-        let (mut anywhere, mut free) = (false, BTreeSet::new());
+        let (mut anywhere, mut free) = (side.links().returns_to_blocks(), BTreeSet::new());
         for text in others.iter().copied().chain([text]) {
             for block in text {
                 // What is no part of the library may write anything.
@@ -82,7 +83,7 @@ impl<'t> Own<'t> {
                             ExprKind::Number(number) => control.code(word.letter, number.value, &[]),
                             _ => None,
                         });
-                        anywhere |= code.is_some_and(|row| row.op == Op::JumpInputOff);
+                        anywhere |= code.is_some_and(|row| matches!(row.op, Op::Jump | Op::JumpInputOff));
                         rests.word(word);
                     }
                     _ => rests.item(item),
@@ -222,7 +223,7 @@ impl<'t> Own<'t> {
                             _ => None,
                         });
                         let does = match jump {
-                            Some(to) => Does::Jump(self.place(to)?),
+                            Some(to) => Does::Jump(place_in(self.text, to)?),
                             None => Does::Items(body),
                         };
                         all.push(Branch { at, span: condition.span, rests, does });
@@ -236,12 +237,17 @@ impl<'t> Own<'t> {
                         all.push(Branch { at, span, rests, does: Does::Loop(at..end) });
                     }
                     ItemKind::Branch { target, .. } => {
-                        let does = Does::Jump(self.place(target)?);
+                        let does = Does::Jump(place_in(self.text, target)?);
                         all.push(Branch { at, span: item.span, rests: [Node::Register].into(), does });
                     }
                     ItemKind::Goto(to) => {
                         let rests = if skipped { outside() } else { BTreeSet::new() };
-                        all.push(Branch { at, span: item.span, rests, does: Does::Jump(self.place(to)?) });
+                        all.push(Branch {
+                            at,
+                            span: item.span,
+                            rests,
+                            does: Does::Jump(place_in(self.text, to)?),
+                        });
                     }
                     _ => {}
                 }
@@ -252,18 +258,6 @@ impl<'t> Own<'t> {
 
     fn rests_of(&self, condition: &Expr) -> BTreeSet<Node> {
         self.rests.read_in(condition)
-    }
-
-    /// The block that a jump goes to, if one alone has that number or label.
-    fn place(&self, to: &Target) -> Option<usize> {
-        let is_it = |item: &Item| match (to, &item.kind) {
-            (Target::Sequence(to), ItemKind::Sequence { number, .. }) => number == to,
-            (Target::Label(to), ItemKind::Label(label)) => label == to,
-            (Target::Label(Label::Number(to)), ItemKind::Sequence { number, .. }) => number == to,
-            _ => false,
-        };
-        let mut all = self.text.iter().enumerate().filter(|(_, block)| block.items.iter().any(is_it));
-        all.next().filter(|_| all.next().is_none()).map(|(at, _)| at)
     }
 
     /// The block that ends a loop: the first one after its head with its number.
