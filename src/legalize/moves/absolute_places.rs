@@ -2,7 +2,7 @@
 //!
 //! Law: the source goes to the place in machine coordinates whether G90 or G91 is in force. Under G90 each target goes to it too, so
 //! the block gets G90, and G91 comes back after it. Side conditions: G91 is in force for certain; the block has a move, its feed,
-//! the spindle and coolant alone; no block skip, no drilling cycle, no modal call, which would run between the two, and no rotation,
+//! the spindle, coolant and the end of length compensation alone; no block skip, no drilling cycle, no modal call, which would run between the two, and no rotation,
 //! whose centre the first absolute word after it may set. What does not keep them stays, and `under_increments` asks of it.
 //! Counter-example: `G91 G53 Z0 M33`, whose M33 may act when the move is done.
 
@@ -53,6 +53,7 @@ fn is_place(nc: &Nc, state: &Modal, drills: bool) -> bool {
     let own = |item: &NcItem| match item {
         NcItem::Op(op) => {
             matches!(op, Op::MachineOnce | Op::Incremental | Op::Rapid | Op::Linear)
+                || matches!(op, Op::LengthOff)
                 || matches!(op.group(), Group::Spindle | Group::Coolant)
         }
         NcItem::Word(role, _) => role.is_axis() || matches!(role, Role::Feed | Role::Speed),
