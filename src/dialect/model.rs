@@ -156,6 +156,9 @@ pub struct Text {
     pub sequence_max: u32,
     /// Largest program number.
     pub program_max: u32,
+    /// True where lines without anything may stand between the blocks of a program.
+    #[serde(default)]
+    pub blank_lines: bool,
     /// Most characters of a comment on a block of its own.
     pub comment: Option<u32>,
     /// Most blocks in a row that hold a comment and nothing else.

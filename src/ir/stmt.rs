@@ -63,6 +63,8 @@ pub struct SourceInfo {
     /// Its block-skip level: skipped when that switch is on. A terminator has it only where it is a branch on
     /// that [`Cond::Switch`] round blocks each of which had this block skip by itself: it changes nothing, and lets each have it again.
     pub skip: Option<u8>,
+    /// How many lines without anything stood before it.
+    pub blanks: u8,
 }
 
 /// A sequence number, or none, in no more room than that takes: there are as many as blocks and statements.

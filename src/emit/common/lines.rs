@@ -46,6 +46,8 @@ pub(in crate::emit) struct Line<'p> {
     flushed: Option<u32>,
     sequence: Option<u32>,
     waiting: Vec<&'p Comment>,
+    /// Lines without anything that stand before the next one.
+    blanks: u8,
     last: Option<&'p SourceInfo>,
 }
 
@@ -59,6 +61,9 @@ impl<'p> Sheet<'p> {
         let last = self.line.last.filter(|last| !site.span.is_empty() && last.span == site.span);
         if last.is_none_or(|last| last.sequence.is_none()) && self.line.sequence.is_none() {
             self.line.sequence = site.sequence.get();
+        }
+        if last.is_none() {
+            self.line.blanks = self.line.blanks.max(site.blanks);
         }
         if last.is_none_or(|last| last.comments != site.comments) {
             self.line.waiting.extend(&site.comments);
@@ -85,6 +90,7 @@ impl<'p> Sheet<'p> {
     pub fn begin(&mut self, site: &'p SourceInfo, kind: Kind, message: Option<&str>) {
         self.span = site.span;
         self.carry(site);
+        self.blank_lines();
         let skip = self.line.skip.take().or(site.skip).or(self.line.under);
         if skip.is_some() && self.line.label.is_some() {
             // A skipped line need not be found by a jump.
@@ -121,6 +127,14 @@ impl<'p> Sheet<'p> {
             }
         }
         self.line.body = self.text.len();
+    }
+
+    /// Writes the lines without anything that stood before the block, where a control's programs have such lines.
+    fn blank_lines(&mut self) {
+        let blanks = std::mem::take(&mut self.line.blanks);
+        if self.control.text().blank_lines {
+            (0..blanks).for_each(|_| self.push('\n'));
+        }
     }
 
     /// Writes the sequence number. A number that the line cannot have is handed back, to be
@@ -276,6 +290,7 @@ impl<'p> Sheet<'p> {
     pub fn flush_label(&mut self) {
         if let Some(label) = self.line.label.take() {
             let name = self.line.name.take();
+            self.blank_lines();
             self.label_line(label, name);
         }
     }

@@ -1,5 +1,6 @@
 //! Sequence numbers, program numbers and blocks without words.
 
+pub(in crate::legalize) mod blank_lines;
 pub(in crate::legalize) mod blanks;
 pub(in crate::legalize) mod counted;
 pub(in crate::legalize) mod earlier;

@@ -9,7 +9,7 @@ use crate::legalize::expressions::{
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::contours;
-use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers, skip_runs};
+use crate::legalize::layout::{blank_lines, macro_lines, program_numbers, sequence_numbers, skip_runs};
 use crate::legalize::moves::start;
 use crate::legalize::offsets::still_blocks;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed, switches};
@@ -175,6 +175,9 @@ pub(super) const OPERATOR: &[Pass] = &[
 ];
 
 pub(super) const LAYOUT: &[Pass] = &[
+    Pass::edits("blank-lines", "lines without anything go under cutter compensation", blank_lines::run)
+        .when(blank_lines::concerns)
+        .brings_nothing(),
     Pass::rewrites(
         "sequence-numbers",
         "sequence numbers stand at the head of what became of their blocks",

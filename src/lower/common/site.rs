@@ -7,7 +7,8 @@ use crate::text::{Span, decode};
 /// The site of a block: its span, sequence number, comments and the block skip
 /// at its head (level 1 where none is written).
 pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
-    let mut site = SourceInfo { span: block.span, ..SourceInfo::default() };
+    let blanks = blanks_before(block.span, source);
+    let mut site = SourceInfo { span: block.span, blanks, ..SourceInfo::default() };
     let mut words = false;
     for item in &block.items {
         match &item.kind {
@@ -28,6 +29,14 @@ pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
         }
     }
     site
+}
+
+/// How many lines without anything stand right before a block; 255 stand for more.
+fn blanks_before(block: Span, source: &[u8]) -> u8 {
+    let before = source.get(..block.start as usize).unwrap_or_default();
+    let blank = before.iter().rev().take_while(|byte| byte.is_ascii_whitespace());
+    let ends = blank.filter(|byte| **byte == b'\n').take(usize::from(u8::MAX) + 1).count();
+    u8::try_from(ends.saturating_sub(1)).unwrap_or(u8::MAX)
 }
 
 /// The text of a comment, in whatever code it was written.
