@@ -126,6 +126,9 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
             return trace.push(EventKind::Coolant { state: coolant });
         }
     };
+    if direction != Spindle::Oriented {
+        machine.commanded = Some(direction);
+    }
     machine.says_running(Running::Spindle, trace);
     machine.spoken.doubt();
     if starts(command) {

@@ -31,6 +31,7 @@ pub(super) fn hole(
     if cycle.op == Op::CycleBackBore {
         return driver.bore_back(cycle);
     }
+    driver.start(cycle);
     driver.rapid(planes.r);
     driver.tell(cycle);
     driver.drill(cycle);
@@ -50,6 +51,21 @@ impl Driver<'_> {
         let bottom = self.place(self.planes.bottom)[self.along];
         let op = if cycle.pecks_nothing() { Op::CycleDrill } else { cycle.op };
         self.trace.push(EventKind::Hole { cycle: op, at, bottom });
+    }
+
+    /// Turns a spindle that something else than its own code ended, where the control's cycles do that. After that code a
+    /// cycle turns nothing; a tap starts it by itself.
+    fn start(&mut self, cycle: &Cycle) {
+        let machine = &self.machine;
+        let turns = matches!(machine.commanded, Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let starts = machine.rules.taps.start && !machine.rules.lathe && !cycle.op.is_tap();
+        if let Some(direction) = machine.commanded
+            && turns
+            && starts
+            && machine.spindle == Spindle::Stopped
+        {
+            self.turn(direction);
+        }
     }
 
     /// From the retract plane into the hole, out of it, and on to the initial plane where that is asked for.

@@ -98,6 +98,8 @@ pub struct Machine {
     speed: f64,
     surface_speed: bool,
     spindle: Spindle,
+    /// How a code of the program last told the spindle to turn, or to stop; none before the first.
+    commanded: Option<Spindle>,
     /// The last S as a number of turns, and the builder's code that turns a tool at it.
     spoken: spoken::Spoken,
     coolant: Op,
@@ -173,6 +175,7 @@ impl Machine {
             speed: 0.0,
             surface_speed: false,
             spindle: Spindle::Stopped,
+            commanded: None,
             spoken: spoken::Spoken::default(),
             coolant: Op::CoolantOff,
             unsure_running: [None; 2],

@@ -21,8 +21,8 @@ pub struct Taps {
     open: bool,
     /// True if a cycle for rigid taps turns a spindle that stands.
     turn: bool,
-    /// True if a plain tap does.
-    start: bool,
+    /// True if a plain tap does, and each drilling cycle after an end that no code of the spindle made.
+    pub start: bool,
 }
 
 impl Taps {

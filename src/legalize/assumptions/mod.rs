@@ -8,4 +8,5 @@ pub(in crate::legalize) mod machine_places;
 mod mistakes;
 pub(in crate::legalize) mod runtime;
 pub(in crate::legalize) mod shop;
+pub(in crate::legalize) mod standing;
 pub(in crate::legalize) mod top_speed;

@@ -25,6 +25,7 @@ pub(in crate::legalize) mod pockets;
 pub(in crate::legalize) mod rigid_cycles;
 pub(in crate::legalize) mod rigid_taps;
 pub(in crate::legalize) mod shift_ways;
+pub(in crate::legalize) mod spindle_starts;
 pub(in crate::legalize) mod stored_places;
 pub(in crate::legalize) mod tap_leads;
 pub(in crate::legalize) mod tap_retracts;

@@ -6,7 +6,8 @@ use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop, top_speed};
 use crate::legalize::calls::parts;
 use crate::legalize::cycles::{
-    cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, stored_places,
+    cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, spindle_starts,
+    stored_places,
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::{contour_numbers, other_kind};
@@ -122,6 +123,12 @@ pub(super) const SOURCE: &[Pass] = &[
         .when(top_speed::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
         .when(changes::concerns),
+    Pass::edits(
+        "spindle-starts",
+        "spindles that the source's cycle turns are turned before it",
+        spindle_starts::run,
+    )
+    .when(spindle_starts::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];
