@@ -4,8 +4,8 @@ use super::control_codes::{Alias, address, aliases};
 use super::profile::{Machine, Profile, Units, VariableRun};
 use super::start::StartMode;
 use super::{
-    BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Question,
-    SameCells, Setting, Standing, Statement, Text, VariableClass,
+    BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, MachinePlaces, Numbers,
+    Operator, Question, SameCells, Setting, Standing, Statement, Text, VariableClass,
 };
 use crate::canon::{Func, Op, Role, Sys};
 use foldhash::{HashMap, HashMapExt};
@@ -28,6 +28,10 @@ pub struct Control {
     pub(super) settings: BTreeMap<String, String>,
     pub(super) reserved: Vec<VariableRun>,
     pub(super) standing: Standing,
+    /// Where places of other machines lie on this one.
+    pub(super) machine_places: MachinePlaces,
+    /// Where its own places lie on the machine that its programs go to.
+    pub(super) places_there: MachinePlaces,
     /// Rows of each code, with the words that each wants beside it.
     pub(super) codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>>,
     pub(super) targets: HashMap<Op, Vec<usize>>,
@@ -88,6 +92,8 @@ impl Control {
             settings,
             reserved,
             standing,
+            machine_places: MachinePlaces::default(),
+            places_there: MachinePlaces::default(),
             codes,
             targets,
             words,

@@ -18,7 +18,11 @@ impl Control {
     /// The source and the target of a conversion: what `target = "M88"` and `do = "same"` in the source's profile say of
     /// the target's codes is a row of the target's table, or of the source's where the target's code has a meaning in common
     /// terms.
-    pub fn meeting(source: Self, target: Self) -> Result<(Self, Self), NoMeeting> {
+    ///
+    /// # Errors
+    /// If the target has no such code, or one of another kind.
+    pub fn meeting(mut source: Self, target: Self) -> Result<(Self, Self), NoMeeting> {
+        source.places_there.clone_from(&target.machine_places);
         let named: Vec<(SiteCode, String)> =
             (source.profile.site.iter()).filter_map(|site| Some((site.clone(), there(site)?))).collect();
         if named.is_empty() {
@@ -54,8 +58,10 @@ impl Control {
         }
         let again = |control: Self, dialect| {
             let (start, marks) = (control.start, (control.reserved, control.standing));
+            let places = (control.machine_places, control.places_there);
             let mut made = Self::index(control.entry, dialect, control.profile, control.settings, marks);
             made.start = start;
+            (made.machine_places, made.places_there) = places;
             made
         };
         Ok((again(source, ours), again(target, theirs)))

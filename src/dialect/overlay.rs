@@ -34,6 +34,7 @@ impl Control {
         let reserved = overlay.reserved(&table, &dialect);
         let has_locals = dialect.variables.iter().any(|class| class.class == "local");
         let standing = overlay.standing(dialect.text.program_max, has_locals);
+        let machine_places = overlay.machine_places();
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
@@ -45,6 +46,7 @@ impl Control {
         }
         let place = profile.place("start:codes").unwrap_or(0..0);
         let mut control = Control::index(entry, dialect, profile, settings, (reserved, standing));
+        control.machine_places = machine_places;
         match control.read_start() {
             Ok(()) => Ok(control),
             Err((message, help)) => {

@@ -51,6 +51,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
             lines.push_str(&line);
         }
     }
+    if side == Side::Target && !survey.far_places.is_empty() {
+        asked.entry("behaviours").or_default().push_str(&super::far_places::told(&survey.far_places));
+    }
     super::kept::others(old.unwrap_or_default(), &|file| survey.has_file(file), &mut asked);
     if let Some(lines) = asked.remove(unseen::SECTION) {
         asked.insert(unseen::SECTION, unseen::together(&lines));

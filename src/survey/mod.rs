@@ -8,6 +8,7 @@ mod beside;
 mod callers;
 mod codes;
 mod digits;
+mod far_places;
 mod filled;
 mod json;
 mod kept;
@@ -81,6 +82,8 @@ pub struct Survey<'a> {
     pub variables: Vec<AskedVariables>,
     /// The letters of the axes that its programs move and that not every such machine has.
     further_axes: Vec<Role>,
+    /// The places in machine coordinates that its programs name, each with how many of them do.
+    far_places: Vec<(String, usize)>,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
@@ -137,6 +140,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let further_axes = variables::further_axes(source, &library.module);
     let digits =
         target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
+    let far_places = target.map_or_else(Vec::new, |target| far_places::named(target, &library.module));
     let speeds = target.and_then(|target| speeds::asked(&places, target, &library.module));
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
@@ -180,6 +184,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         signals,
         variables,
         further_axes,
+        far_places,
         rest: conversion,
         then: Vec::new(),
         now,

@@ -23,6 +23,7 @@ mod offsets;
 mod one_table;
 mod outside;
 mod pauses;
+mod places;
 mod pockets;
 mod polar;
 mod returns;

@@ -3,7 +3,7 @@
 use super::command::is_rotary;
 use super::frame::UnderIncremental;
 use super::tooling::LostBy;
-use super::{Command, Machine, arc, cycle, holes, inverse, lathe, pockets, returns};
+use super::{Command, Machine, arc, cycle, holes, inverse, lathe, places, pockets, returns};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
@@ -16,6 +16,8 @@ pub(super) const LENGTH_AXIS: usize = 2;
 const CORNERS: [(Role, bool); 2] = [(Role::CornerRadius, false), (Role::CornerChamfer, true)];
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let elsewhere = places::elsewhere(machine, command);
+    let command = elsewhere.as_ref().unwrap_or(command);
     let cuts = moves(machine, command, trace)?;
     if machine.rules.lathe {
         return Ok(());

@@ -78,6 +78,11 @@ Nothing needs to be done for the programs of the library. Who writes a new call 
 "A variable keeps its value over power-off on one control and loses it on the other. The program reads it before it writes it, but only after it called a program that is not in the library, as a probing macro that stands in both machines. The value is taken for the result of that program, so what an earlier run left there does not count.
 
 There is nothing to do where the program called sets the variable. Where a value from before power-off is meant, write \"power.off.values\" = \"used\" under [behaviours] in the profile of the source's machine: each program that reads such a variable first is for review then."
+
+    "0418" PlaceMoved Note "a place of the old machine lies elsewhere on the new one"
+"The program moves to a place in machine coordinates. The profile of the target's machine says under 'machine_places' where that place lies there, and the move gets those words. It is told once a program. Both programs are compared as if the old one named the new place.
+
+Nothing needs to be done. Whoever wrote the line has looked at the way there: the block before it, and what stands on the table, are the new machine's."
         }
     };
 }

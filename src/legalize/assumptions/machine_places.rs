@@ -1,20 +1,21 @@
 //! Places in machine coordinates, which are places of the old machine.
 //!
-//! Nothing is changed. A move in machine coordinates, and a work offset that a program writes as numbers, name places that hang on
+//! A move in machine coordinates, and a work offset that a program writes as numbers, name places that hang on
 //! where the machine has its zero, how far it goes, and what stands on its table. The words are the same on the target, and the
-//! place is not. It is asked once of the target. Side conditions: zero of an axis is the reference position, where both controls are
+//! place is not. It is asked once of the target, whose profile may say where one lies. Side conditions: zero of an axis is the reference position, where both controls are
 //! of one family; of Z it is so on all. What is read from the machine (a position, an offset that was saved) is the target's own, and
 //! what a program compares it with is not, but for 0 and for what it read there too.
 //! Counter-example: `G53 X-300.`, which is past the end of a smaller machine.
 
+use super::moved_places::At;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
 use crate::ir::{Cond, Expr, Module, Nc, NcItem, Place, StmtKind, TermKind, Var};
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::{Context, Modal};
+use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// What is asked of moves to such places, and of work offsets that are written as numbers.
 const MOVES: Question = Question::MachinePlaces;
@@ -25,14 +26,22 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let names = [Op::MachineOnce, Op::ShiftCancel, Op::WriteWork].iter().any(|op| features.op(*op));
     (names || features.has(Feature::System))
         && !context.source.is_same_machine(context.target)
-        && [MOVES, OFFSETS]
-            .iter()
-            .any(|question| context.target.behaviour(*question).is_none_or(|row| row.value != "same"))
+        && (!context.source.places_there().is_empty()
+            || [MOVES, OFFSETS]
+                .iter()
+                .any(|question| context.target.behaviour(*question).is_none_or(|row| row.value != "same")))
 }
 
-/// Asks of the target what its places are, where programs name some.
-pub fn run(module: &Module, context: &mut Context<'_>) {
+/// Gives the moves to places of the old machine that the target's profile says to lie elsewhere their words there, and asks of the
+/// target what its places are, where programs name others; true if any was given.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
+    let moved = super::moved_places::run(module, &facts, context);
+    ask(module, &facts, &moved, context);
+    !moved.is_empty()
+}
+
+fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut Context<'_>) {
     let numbers = Numbers::of(module);
     let read = read_places(module);
     let answer = |question| context.target.behaviour(question).map(|row| row.value.clone());
@@ -48,8 +57,11 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let cancels = stmts.any(|stmt| stmt.kind.has_op(Op::ShiftCancel));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
+            for (at, stmt) in block.stmts.iter().enumerate() {
                 state.step(stmt);
+                if moved.contains(&(index, id, at)) {
+                    continue;
+                }
                 let names = match &stmt.kind {
                     StmtKind::Nc(nc) => of_block(nc, &state, &numbers, [one_family, in_steps, cancels]),
                     StmtKind::Assign { target: Place::System(Sys::WorkOffset, _), value } => {
@@ -77,7 +89,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-const NAMED: &str = "this is a place in machine coordinates of the old machine: write the place of the new one into the conversion";
+const NAMED: &str = "this is a place in machine coordinates of the old machine: say in the target's profile where it lies on the new one \
+                     (machine_places = [\"X-11. as X-300.\"])";
 const COMPARED: &str = "a work offset or a machine position is compared with a number of the old machine: write the number of the new one into \
                         the conversion";
 

@@ -6,6 +6,7 @@ pub(in crate::legalize) mod cutter_tables;
 pub(in crate::legalize) mod facts;
 pub(in crate::legalize) mod machine_places;
 mod mistakes;
+mod moved_places;
 pub(in crate::legalize) mod runtime;
 pub(in crate::legalize) mod shop;
 pub(in crate::legalize) mod standing;

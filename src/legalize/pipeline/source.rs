@@ -107,9 +107,9 @@ pub(super) const SOURCE: &[Pass] = &[
     NAMED_LENGTHS,
     Pass::reports("shop-facts", "reports what parameters of the machines decide", shop::run)
         .when(shop::concerns),
-    Pass::reports(
+    Pass::edits(
         "machine-places",
-        "asks of the target whether places in machine coordinates suit it",
+        "moves go to the target's places in machine coordinates, or it is asked whether they suit it",
         machine_places::run,
     )
     .when(machine_places::concerns),
