@@ -19,15 +19,20 @@ pub struct Outside {
     is_target: bool,
     /// Numbers on the source of programs that the library has: those are no part of it.
     library: BTreeSet<u32>,
-    /// Common variables that both know by one number.
-    common: Vec<u32>,
+    /// Common variables that both know, by their numbers on the source and on the target.
+    common: Vec<(u32, u32)>,
     /// Locals that both know by one number.
     locals: Vec<usize>,
 }
 
 impl Outside {
     /// The programs that the target's profile names, but those of the library, as the source sees them.
-    pub fn new(standing: &Standing, library: BTreeSet<u32>, common: Vec<u32>, locals: Vec<usize>) -> Self {
+    pub fn new(
+        standing: &Standing,
+        library: BTreeSet<u32>,
+        common: Vec<(u32, u32)>,
+        locals: Vec<usize>,
+    ) -> Self {
         Self { standing: standing.clone(), is_target: false, library, common, locals }
     }
 
@@ -51,9 +56,9 @@ impl Outside {
         self.standing.is_empty()
     }
 
-    /// Common variables that both know by one number.
-    pub fn common(&self) -> &[u32] {
-        &self.common
+    /// Common variables that both know: the number on the source, and the one here.
+    pub fn common(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.common.iter().map(|(source, target)| (*source, if self.is_target { *target } else { *source }))
     }
 
     /// Locals that both know by one number.

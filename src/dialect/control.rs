@@ -5,7 +5,7 @@ use super::profile::{Machine, Profile, Units, VariableRun};
 use super::start::StartMode;
 use super::{
     BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, MachinePlaces, Numbers,
-    Operator, Question, SameCells, Setting, Standing, Statement, Text, VariableClass,
+    Operator, Question, SameCells, Setting, Standing, StandingResults, Statement, Text, VariableClass,
 };
 use crate::canon::{Func, Op, Role, Sys};
 use foldhash::{HashMap, HashMapExt};
@@ -28,6 +28,8 @@ pub struct Control {
     pub(super) settings: BTreeMap<String, String>,
     pub(super) reserved: Vec<VariableRun>,
     pub(super) standing: Standing,
+    /// The results of programs that stand in the machine.
+    pub(super) standing_results: StandingResults,
     /// Where places of other machines lie on this one.
     pub(super) machine_places: MachinePlaces,
     /// Where its own places lie on the machine that its programs go to.
@@ -92,6 +94,7 @@ impl Control {
             settings,
             reserved,
             standing,
+            standing_results: StandingResults::default(),
             machine_places: MachinePlaces::default(),
             places_there: MachinePlaces::default(),
             codes,

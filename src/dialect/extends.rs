@@ -77,6 +77,7 @@ impl Profile {
             reserved: both(base.reserved, self.reserved),
             variables: self.variables.or(base.variables),
             programs: both(base.programs, self.programs),
+            standing_results: both(base.standing_results, self.standing_results),
             machine_places: both(base.machine_places, self.machine_places),
             confirm: both(base.confirm, self.confirm),
             site,

@@ -59,9 +59,11 @@ impl Control {
         let again = |control: Self, dialect| {
             let (start, marks) = (control.start, (control.reserved, control.standing));
             let places = (control.machine_places, control.places_there);
+            let results = control.standing_results;
             let mut made = Self::index(control.entry, dialect, control.profile, control.settings, marks);
             made.start = start;
             (made.machine_places, made.places_there) = places;
+            made.standing_results = results;
             made
         };
         Ok((again(source, ours), again(target, theirs)))

@@ -34,6 +34,13 @@ impl Control {
         let reserved = overlay.reserved(&table, &dialect);
         let has_locals = dialect.variables.iter().any(|class| class.class == "local");
         let standing = overlay.standing(dialect.text.program_max, has_locals);
+        let shared = |number| {
+            let rows =
+                dialect.variables.iter().filter(|row| !matches!(row.class.as_str(), "local" | "letter"));
+            rows.filter(|row| Some(&row.name) == dialect.names.numbered.as_ref())
+                .any(|row| (row.first..=row.last).contains(&number))
+        };
+        let standing_results = overlay.standing_results(dialect.names.numbered.as_deref(), &shared);
         let machine_places = overlay.machine_places();
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
@@ -46,7 +53,7 @@ impl Control {
         }
         let place = profile.place("start:codes").unwrap_or(0..0);
         let mut control = Control::index(entry, dialect, profile, settings, (reserved, standing));
-        control.machine_places = machine_places;
+        (control.machine_places, control.standing_results) = (machine_places, standing_results);
         match control.read_start() {
             Ok(()) => Ok(control),
             Err((message, help)) => {

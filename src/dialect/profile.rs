@@ -61,6 +61,9 @@ pub struct Profile {
     /// Places in machine coordinates of the machine that programs come from, and where each lies on this one:
     /// `X-11. Z-13. as X-300. Z-200.`.
     pub machine_places: Vec<String>,
+    /// The variables by which those programs give their results, and their numbers on the machine that calls come from:
+    /// `#135-#149 as #185-#199`.
+    pub standing_results: Vec<String>,
     /// Facts that the shop has checked, by the name that diagnostics give them.
     pub confirm: Vec<String>,
     /// Codes that the machine's builder or the shop defined: rows of `[[site]]`, and lines of `[codes]`.

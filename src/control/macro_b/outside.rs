@@ -29,7 +29,7 @@ impl Runner<'_> {
             .filter(|(number, _)| known(number))
             .map(|(number, value)| (number as u32, value))
             .collect();
-        let common = outside.common().iter().filter_map(|number| Some((*number, self.memory.get(*number)?)));
+        let common = outside.common().filter_map(|(number, here)| Some((number, self.memory.get(here)?)));
         let common = common.collect();
         let state = self.session.machine.found();
         let call = OutsideCall { program, runs, locals, common, state };
@@ -38,8 +38,8 @@ impl Runner<'_> {
         let Some(drawn) = Drawn::new(self.session.scenario.outside, self.calls_outside) else {
             return Ok(Next::On);
         };
-        for number in outside.common() {
-            self.memory.set(*number, drawn.variable(*number), 0.0);
+        for (number, here) in outside.common() {
+            self.memory.set(here, drawn.variable(number), 0.0);
         }
         for number in outside.locals().iter().filter(|_| shares) {
             self.memory.set_local(*number, drawn.variable(*number as u32), 0.0);

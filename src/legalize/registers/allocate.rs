@@ -11,6 +11,7 @@ use super::map::{Register, Registers};
 use super::names::{OF, class_of, keeps_number, name_of, numbers_alike, reached};
 use super::needs::class_of_colour;
 use super::pool::Pool;
+use super::results;
 use super::runs::{banks, point, run_of};
 use super::shortage::Shortage;
 use crate::ir::analysis::VarSet;
@@ -83,6 +84,7 @@ fn allocate(
         pool.used.insert(var.number);
         registers.of.insert(var, Register { name: pool.name.clone(), number: var.number });
     }
+    results::pin(&users, locked, &mut pool, &mut registers, module, context);
     let runs: Vec<(Bank, u32)> =
         banks.keys().filter_map(|bank| run_of(*bank, &mut pool, &users, &mut registers, context)).collect();
     let mut wanted: BTreeSet<Var> = users.into_keys().filter(|var| !registers.of.contains_key(var)).collect();

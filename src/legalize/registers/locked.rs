@@ -285,7 +285,10 @@ pub fn check(
         let Some((&var, register)) = held else { continue };
         let target = context.target;
         let others = holders.get(number).into_iter().flatten().filter(|other| **other != name.as_str());
-        let why = if target.is_reserved(&register.name, *number) {
+        let is_result = target.standing_results().of(var.number) == Some(*number);
+        let why = if is_result {
+            continue;
+        } else if target.is_reserved(&register.name, *number) {
             "the machine profile reserves".to_owned()
         } else if target.variable_class(&register.name, *number).is_none() {
             "the target does not have".to_owned()

@@ -34,6 +34,8 @@ pub struct Registers {
     pub freed: BTreeSet<String>,
     /// Numbers that programs reach by computing them, or may.
     pub reached: Numbers,
+    /// The registers in which programs that stand in the machine put their results, as its profile says.
+    pub results: BTreeSet<u32>,
     /// True if a variable of the source may have its own name on the target.
     pub alike: bool,
     /// The names on the source of variables that have another number now.
@@ -45,14 +47,14 @@ impl Registers {
     pub fn taken(&self) -> impl Iterator<Item = u32> + '_ {
         self.of
             .iter()
-            .filter(|(var, register)| !self.is_own(var, register))
+            .filter(|(var, register)| !self.is_known(var, register))
             .map(|(_, register)| register.number)
     }
 
     /// The same in words, as the target names them: `V1-V3, R5`.
     pub fn taken_in_words(&self) -> String {
         let mut by_name: BTreeMap<&str, Vec<(u32, u32)>> = BTreeMap::new();
-        for (_, register) in self.of.iter().filter(|(var, register)| !self.is_own(var, register)) {
+        for (_, register) in self.of.iter().filter(|(var, register)| !self.is_known(var, register)) {
             by_name.entry(&register.name).or_default().push((register.number, register.number));
         }
         let words = by_name.into_iter().map(|(name, runs)| Numbers::of(runs).in_words(name));
@@ -70,6 +72,11 @@ impl Registers {
     pub fn held(&self) -> impl Iterator<Item = u32> + '_ {
         let named = self.of.iter().filter(|(var, _)| !matches!(var.class, Class::Temp | Class::Static));
         named.map(|(_, register)| register.number)
+    }
+
+    /// True where nobody need be told that a variable is there: it has its own name, or is a result.
+    pub(super) fn is_known(&self, var: &Var, register: &Register) -> bool {
+        self.is_own(var, register) || self.results.contains(&register.number)
     }
 
     /// True where a variable is in the register of its own name.

@@ -15,6 +15,7 @@ pub(in crate::legalize) mod names;
 pub(in crate::legalize) mod needs;
 pub(in crate::legalize) mod outside;
 mod pool;
+mod results;
 mod runs;
 mod shortage;
 pub(in crate::legalize) mod standing;

@@ -108,6 +108,7 @@ pub(in crate::legalize) fn keeps_number(var: Var, context: &Context<'_>) -> bool
     var.class.nullable()
         && numbers_alike(context)
         && same_kind
+        && !(var.class != Class::Local && context.target.standing_results().names(var.number))
         && !context.target.is_reserved(&name, var.number)
 }
 

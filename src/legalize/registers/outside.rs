@@ -23,7 +23,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             return None;
         }
         let set_here =
-            !is_shared(var.class) || written.contains(*var) || context.registers.is_own(var, register);
+            !is_shared(var.class) || written.contains(*var) || context.registers.is_known(var, register);
         (!set_here).then(|| name_of(*var, module, context.source)).flatten().map(|name| (name, register))
     };
     let mut all = VarSet::default();

@@ -7,6 +7,7 @@
 
 use super::names::name_of;
 use super::outside::{Moved, in_words, is_shared, named, read, written_by};
+use super::results::is_result;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
 use crate::ir::analysis::{VarSet, calls_of};
@@ -60,7 +61,9 @@ fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Conte
         vars.sort_unstable();
         vars.dedup();
         let mut moves = Vec::new();
-        for var in vars.into_iter().filter(|var| is_shared(var.class)) {
+        let pinned =
+            |var: &Var| is_result(*var) && context.target.standing_results().of(var.number).is_some();
+        for var in vars.into_iter().filter(|var| is_shared(var.class) && !pinned(var)) {
             let there = names.entry(var).or_insert_with(|| {
                 let register = context.registers.of.get(&var)?;
                 let is_own = context.registers.is_own(&var, register);
@@ -121,6 +124,7 @@ fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
         let names: Vec<String> = read(program)
             .iter()
             .filter(|var| is_shared(var.class) && !is_written(var))
+            .filter(|var| !is_result(*var) || context.target.standing_results().of(var.number).is_none())
             .filter_map(|var| name_of(var, module, context.source))
             .collect();
         if names.is_empty() {
@@ -132,7 +136,10 @@ fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
             let what = format!(
                 "{listed}, which a program that stands in the machine sets, and which this one reads: the target's sets other variables"
             );
-            let help = "write the numbers of the target's variables into the conversion";
+            let help = format!(
+                "say in the target's profile which variables they are there: standing_results = [\"{} as ...\"]",
+                names.first().map_or("", String::as_str)
+            );
             context.add(index, Diagnostic::new(Code::Conditional, span, what).with_help(help));
         } else {
             let what = format!("{} ({listed})", QUESTION.meaning());

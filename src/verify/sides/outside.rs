@@ -33,9 +33,12 @@ pub fn beside<'a, 'b>(source: Side<'a>, target: Side<'b>, names: &SymbolMap) -> 
             }
             let there = names.variable(&name, source.control, target.control);
             let is_local = |name: &str| class_of(target.control, name).map(|class| class.class == "local");
-            match there.filter(|there| *there == name).and_then(|there| is_local(&there)) {
+            // A result has the number that the target's profile gives it.
+            let result = target.control.standing_results().of(number).filter(|_| class.class != "local");
+            let same = format!("{}{}", class.name, result.unwrap_or(number));
+            match there.filter(|there| *there == same).and_then(|there| is_local(&there)) {
                 Some(true) if class.class == "local" => locals.push(number as usize),
-                Some(false) if class.class != "local" => common.push(number),
+                Some(false) if class.class != "local" => common.push((number, result.unwrap_or(number))),
                 _ => {}
             }
         }
