@@ -4,8 +4,8 @@
 //! goes on into their operands. Order is the order of evaluation.
 
 use super::{
-    Call, Callee, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program, StmtKind, TermKind,
-    Var,
+    BlockId, Call, Callee, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program, StmtKind,
+    TermKind, Var,
 };
 use crate::canon::Op;
 
@@ -205,6 +205,21 @@ impl StmtKind {
         match self {
             StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } => Some(target),
             _ => None,
+        }
+    }
+}
+
+impl TermKind {
+    /// Calls `f` on each of [`TermKind::successors`].
+    pub fn each_successor(&self, f: &mut impl FnMut(BlockId)) {
+        match self {
+            TermKind::Jump(to) | TermKind::Call { next: to, .. } => f(*to),
+            TermKind::Branch { then, otherwise, .. } => {
+                f(*then);
+                f(*otherwise);
+            }
+            TermKind::Computed { targets, .. } => targets.iter().for_each(|(_, to)| f(*to)),
+            TermKind::Return { .. } | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {}
         }
     }
 }

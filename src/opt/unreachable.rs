@@ -41,7 +41,8 @@ fn kept(program: &Program, level: Level, come_back: bool) -> Vec<bool> {
     });
     reached_among(program.blocks.len(), roots.map(|(id, _)| id.index()), |at, go| {
         let Some(block) = program.blocks.get(at) else { return };
-        block.term.kind.successors().into_iter().chain(entries(block)).for_each(|to| go(to.index()));
+        block.term.kind.each_successor(&mut |to| go(to.index()));
+        entries(block).for_each(|to| go(to.index()));
     })
 }
 

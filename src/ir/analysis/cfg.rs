@@ -69,7 +69,8 @@ impl Cfg {
         }
         succs.push(labelled(program).filter(|_| looks).collect());
         // At an unknown label nobody can tell in which part a run is.
-        let told = !looks && modal_bodies(program).next().is_none();
+        // Without parts of its own all returns go on at one place, whichever blocks they stand in.
+        let told = after.len() > 1 && !looks && modal_bodies(program).next().is_none();
         returns_go_on(&mut succs, after, program, told);
         // What no part reaches never runs: it goes anywhere.
         let all = (label.0 + 1..succs.len() as u32).map(BlockId);
@@ -107,6 +108,13 @@ impl Cfg {
     fn new(mut succs: Vec<Ways>, program: &Program) -> Self {
         let count = succs.len();
         for targets in &mut succs {
+            // Most blocks go on at the next one alone.
+            if let [to] = targets.as_slice() {
+                if to.index() >= count {
+                    targets.clear();
+                }
+                continue;
+            }
             targets.sort_unstable();
             targets.dedup();
             targets.retain(|to| to.index() < count);
@@ -223,8 +231,9 @@ pub fn own_call(block: &Block) -> Option<(BlockId, BlockId, bool)> {
 /// The blocks that a routine entered at `entry` can run, calls stepped over.
 pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
     let seen = reached_among(program.blocks.len(), [entry.index()], |at, go| {
-        let block = program.blocks.get(at).into_iter();
-        block.flat_map(|block| block.term.kind.successors()).for_each(|to| go(to.index()));
+        if let Some(block) = program.blocks.get(at) {
+            block.term.kind.each_successor(&mut |to| go(to.index()));
+        }
     });
     program.ids().filter(|id| seen[id.index()]).collect()
 }

@@ -169,7 +169,7 @@ impl LiveStatics {
     /// Follows entries to callers and what is needed after calls to callees, until nothing changes.
     fn follow(&mut self, module: &Module) {
         let count = module.programs.len();
-        let mut work = Worklist::ranked((0..count as u32).rev().collect());
+        let mut work = Worklist::counted(count, true);
         (0..count).for_each(|program| work.add(program));
         let mut callers = vec![BTreeSet::new(); count];
         while let Some(index) = work.pop() {

@@ -56,6 +56,7 @@ struct Transfers<'t>(&'t [Transfer]);
 impl Analysis for Transfers<'_> {
     type State = Temps;
     const DIRECTION: Direction = Direction::Backward;
+    const AS_THEY_STAND: bool = true;
 
     /// Only where something is read is anything done: temporaries live for a few blocks of many. Blocks that the entry
     /// does not reach are answered for too: they may be kept.
@@ -78,9 +79,13 @@ impl Analysis for Transfers<'_> {
     }
 }
 
-/// What is live at the end of each block of a program, by what its blocks do.
-pub fn live_after(program: &Program, cfg: &Cfg, transfers: &[Transfer]) -> States<Temps> {
-    solve(&Transfers(transfers), program, cfg)
+/// What is live at the end of each block of a program, by what its blocks do, and the ways between them. Most programs
+/// read each temporary in the block that writes it: then nothing is live at any end, and their ways are not asked for.
+pub fn live_after(program: &Program, cfg: impl FnOnce() -> Cfg, transfers: &[Transfer]) -> States<Temps> {
+    if transfers.iter().all(|transfer| transfer.reads.is_empty()) {
+        return States::default();
+    }
+    solve(&Transfers(transfers), program, &cfg())
 }
 
 /// What statements and ends of blocks do to what is live.
@@ -136,7 +141,7 @@ impl<'p> Liveness<'p> {
     pub fn of(program: &'p Program, ways: Ways) -> Self {
         let rules = Rules { ways, modal_body: has_modal_body(program) };
         let transfers: Vec<Transfer> = program.blocks.iter().map(|block| rules.transfer(block)).collect();
-        let ends = live_after(program, &Cfg::whole(program, ways.come_back), &transfers);
+        let ends = live_after(program, || Cfg::whole(program, ways.come_back), &transfers);
         Self { program, rules, ends }
     }
 

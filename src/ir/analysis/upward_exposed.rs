@@ -113,6 +113,7 @@ impl Live<'_> {
 impl Analysis for Live<'_> {
     type State = BitRow;
     const DIRECTION: Direction = Direction::Backward;
+    const AS_THEY_STAND: bool = true;
 
     fn entries(&self, _: &Cfg) -> Vec<(BlockId, BitRow)> {
         self.program.ids().map(|id| (id, self.none.clone())).collect()

@@ -65,6 +65,7 @@ impl Lattice for BitRow {
 impl Analysis for Rules<'_> {
     type State = BitRow;
     const DIRECTION: Direction = Direction::Forward;
+    const AS_THEY_STAND: bool = true;
 
     fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, BitRow)> {
         // A body that a modal call enters is entered with anything.

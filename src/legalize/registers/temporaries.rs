@@ -290,7 +290,6 @@ fn copied(block: &Block, at: usize) -> Option<u32> {
 
 /// The temporaries alive at the end of each block, and whether it names any.
 fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
-    let cfg = Cfg::of(program);
     let mut naming = vec![false; program.blocks.len()];
     let transfer = |(block, names): (&Block, &mut bool)| {
         let mut transfer = Transfer::default();
@@ -303,7 +302,7 @@ fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
         transfer
     };
     let transfers: Vec<Transfer> = program.blocks.iter().zip(&mut naming).map(transfer).collect();
-    let live = live_after(program, &cfg, &transfers);
+    let live = live_after(program, || Cfg::of(program), &transfers);
     let out = program.ids().map(|id| live.at(id).cloned().unwrap_or_default()).collect();
     (out, naming)
 }

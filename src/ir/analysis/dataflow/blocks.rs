@@ -25,6 +25,9 @@ pub trait Analysis {
     /// Which way it goes.
     const DIRECTION: Direction;
 
+    /// True where blocks are best looked at as they stand: their order by the graph costs more than it saves an analysis of few bits.
+    const AS_THEY_STAND: bool = false;
+
     /// What is known at the heads of blocks that control enters from outside, or leaves to it. Blocks that neither
     /// stand here nor are led to are never looked at.
     fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Self::State)>;
@@ -111,8 +114,10 @@ pub fn solve_within<A: Analysis>(
     cfg: &Cfg,
     limit: usize,
 ) -> Option<States<A::State>> {
-    let ranks = ranks(cfg, A::DIRECTION == Direction::Forward);
-    let mut flow = begin(ranks, analysis, cfg);
+    let forward = A::DIRECTION == Direction::Forward;
+    let flow =
+        if A::AS_THEY_STAND { Flow::counted(cfg.len(), !forward) } else { Flow::ranked(ranks(cfg, forward)) };
+    let mut flow = begin(flow, analysis, cfg);
     follow(analysis, program, cfg, &mut flow, limit)?;
     Some(States(flow.into_states()))
 }
@@ -137,7 +142,7 @@ pub(crate) fn solve_everywhere_by<A: Analysis>(
     cfg: &Cfg,
     unreached: &A::State,
 ) -> States<A::State> {
-    let mut flow = begin(ranks, analysis, cfg);
+    let mut flow = begin(Flow::ranked(ranks), analysis, cfg);
     let _ = follow(analysis, program, cfg, &mut flow, usize::MAX);
     for block in 0..program.blocks.len() {
         if flow.state(block).is_none() {
@@ -149,8 +154,7 @@ pub(crate) fn solve_everywhere_by<A: Analysis>(
     States(flow.into_states())
 }
 
-fn begin<A: Analysis>(ranks: Vec<u32>, analysis: &A, cfg: &Cfg) -> Flow<A::State> {
-    let mut flow = Flow::ranked(ranks);
+fn begin<A: Analysis>(mut flow: Flow<A::State>, analysis: &A, cfg: &Cfg) -> Flow<A::State> {
     for (id, state) in analysis.entries(cfg) {
         flow.flow(id.index(), &state);
     }

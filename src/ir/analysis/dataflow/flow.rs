@@ -3,17 +3,31 @@
 use super::Lattice;
 use std::collections::BTreeSet;
 
-/// Nodes that wait to be looked at, each once, in the order of their ranks.
+/// Nodes that wait to be looked at, each once, in an order.
 #[derive(Clone, Debug)]
 pub struct Worklist {
-    /// By node: its place in the order.
-    places: Vec<u32>,
-    /// By place.
-    nodes: Vec<u32>,
+    order: Order,
+    /// How many nodes there are.
+    count: usize,
     /// A bit for each place: whether the node there waits.
     waits: Vec<u64>,
     /// No node waits in the words before this one.
     first: usize,
+}
+
+/// Which node comes first.
+#[derive(Clone, Debug)]
+enum Order {
+    /// The first.
+    Counted,
+    /// The last.
+    Turned,
+    Ranked {
+        /// By node: its place in the order.
+        places: Vec<u32>,
+        /// By place.
+        nodes: Vec<u32>,
+    },
 }
 
 impl Worklist {
@@ -22,17 +36,32 @@ impl Worklist {
         let places = places(ranks);
         let mut nodes = vec![0; places.len()];
         (0..).zip(&places).for_each(|(node, place)| nodes[*place as usize] = node);
-        let waits = vec![0; places.len().div_ceil(64)];
-        Self { places, nodes, waits, first: 0 }
+        let count = places.len();
+        Self::by(Order::Ranked { places, nodes }, count)
+    }
+
+    /// Of so many nodes, the first of which comes first; the last where it is turned.
+    pub fn counted(count: usize, turned: bool) -> Self {
+        Self::by(if turned { Order::Turned } else { Order::Counted }, count)
+    }
+
+    fn by(order: Order, count: usize) -> Self {
+        Self { order, count, waits: vec![0; count.div_ceil(64)], first: 0 }
     }
 
     /// Lets a node wait.
     pub fn add(&mut self, node: usize) {
-        if let Some(place) = self.places.get(node) {
-            let word = (*place / 64) as usize;
-            self.waits[word] |= 1 << (place % 64);
-            self.first = self.first.min(word);
+        if node >= self.count {
+            return;
         }
+        let place = match &self.order {
+            Order::Counted => node,
+            Order::Turned => self.count - 1 - node,
+            Order::Ranked { places, .. } => places[node] as usize,
+        };
+        let word = place / 64;
+        self.waits[word] |= 1 << (place % 64);
+        self.first = self.first.min(word);
     }
 
     /// The first node that waits, which does so no more.
@@ -41,7 +70,11 @@ impl Worklist {
             if *word != 0 {
                 let place = self.first * 64 + word.trailing_zeros() as usize;
                 *word &= *word - 1;
-                return self.nodes.get(place).map(|node| *node as usize);
+                return match &self.order {
+                    Order::Counted => Some(place),
+                    Order::Turned => Some(self.count - 1 - place),
+                    Order::Ranked { nodes, .. } => nodes.get(place).map(|node| *node as usize),
+                };
             }
             self.first += 1;
         }
@@ -92,15 +125,22 @@ pub struct Flow<S> {
 impl<S: Lattice> Flow<S> {
     /// Of so many nodes, the first of which comes first.
     pub fn new(nodes: usize) -> Self {
-        Self::ranked((0..nodes as u32).collect())
+        Self::counted(nodes, false)
+    }
+
+    /// Of so many nodes, the first of which comes first; the last where it is turned.
+    pub fn counted(nodes: usize, turned: bool) -> Self {
+        Self::by(Worklist::counted(nodes, turned))
     }
 
     /// Of nodes with these ranks, the least of which comes first.
     pub fn ranked(ranks: Vec<u32>) -> Self {
-        let nodes = ranks.len();
-        let states = vec![None; nodes];
-        let (joined, since) = (vec![0; nodes], vec![0; nodes]);
-        Self { states, joined, since, settled: 0, work: Worklist::ranked(ranks) }
+        Self::by(Worklist::ranked(ranks))
+    }
+
+    fn by(work: Worklist) -> Self {
+        let (states, joined, since) = (vec![None; work.count], vec![0; work.count], vec![0; work.count]);
+        Self { states, joined, since, settled: 0, work }
     }
 
     /// What has a state keeps it from here on.

@@ -21,17 +21,16 @@ pub struct Routines<S> {
 impl<S: Lattice> Routines<S> {
     /// Of so many nodes, the first of which comes first.
     pub fn new(nodes: usize) -> Self {
-        Self::ranked((0..nodes as u32).collect())
+        Self::by(Flow::new(nodes))
     }
 
     /// Of nodes with these ranks, the least of which comes first.
     pub fn ranked(ranks: Vec<u32>) -> Self {
-        Self {
-            nodes: Flow::ranked(ranks),
-            returned: BTreeMap::new(),
-            callers: BTreeMap::new(),
-            closed: false,
-        }
+        Self::by(Flow::ranked(ranks))
+    }
+
+    fn by(nodes: Flow<S>) -> Self {
+        Self { nodes, returned: BTreeMap::new(), callers: BTreeMap::new(), closed: false }
     }
 
     /// The next node that is to be looked at, and its state.
