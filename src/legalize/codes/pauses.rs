@@ -77,7 +77,6 @@ const DRY: &str = "M9 is written before this optional stop, as the target's leav
 
 /// Ends before stops what the source ends at them; true if that changed anything.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    context.count(module);
     let stops = stops(module, context);
     let changes = !stops.is_empty();
     for Stop { place: (index, id), before, again } in stops {
@@ -103,9 +102,25 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let piece = if context.goes_on { module.programs.len().checked_sub(1) } else { None };
     let run_ends =
         |index: usize, kind: &TermKind| ends_run(kind) && !(piece == Some(index) && *kind == TermKind::Stray);
-    let asks = |index: usize, block: &Block| run_ends(index, &block.term.kind) || stops_in(block);
-    let mut programs = module.programs.iter().enumerate();
-    if !programs.any(|(index, program)| program.blocks.iter().any(|block| asks(index, block))) {
+    let stops = |index: usize, block: &Block| run_ends(index, &block.term.kind) || stops_in(block);
+    let any = |asks: &dyn Fn(usize, &Block) -> bool| {
+        let mut programs = module.programs.iter().enumerate();
+        programs.any(|(index, program)| program.blocks.iter().any(|block| asks(index, block)))
+    };
+    if !any(&stops) {
+        return found;
+    }
+    context.count(module);
+    let started = started(module, context);
+    // What nothing starts that the program has to do with, and no run finds running, does not run there.
+    let found_running = |running: Running| match context.entry.op(ends(running).0) {
+        Some(op) => starts(running).contains(&op),
+        None => false,
+    };
+    let entered = Running::ALL.into_iter().any(found_running);
+    let may_run = |index: usize| entered || started[index] != [false; 2];
+    let asks = |index: usize, block: &Block| may_run(index) && stops(index, block);
+    if !any(&asks) {
         return found;
     }
     let facts = context.modal_facts(module);
@@ -114,7 +129,6 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     spread(&mut lost, module, context);
     let passes = context.target.skips_same_tool() && !context.source.skips_same_tool();
     let after = After::of(module, &facts, [context.source, context.target]);
-    let started = started(module, context);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| asks(index, block)) {
             let mut place = Place {

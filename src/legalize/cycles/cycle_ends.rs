@@ -20,7 +20,8 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
         || features.has(Feature::Code)
         || context.chained
         || context.drills;
-    may_drill && Ends::of(context).any()
+    let ends = Ends::of(context);
+    may_drill && (ends.motion || features.any_op(|op| ends.are_before(op)))
 }
 
 /// Before what the cycles in force are to be ended.
@@ -40,8 +41,9 @@ impl Ends {
         Self { motion: ours && !theirs, arcs: theirs && !is_sure(context.target, Question::CycleEndsByArc) }
     }
 
-    fn any(self) -> bool {
-        self.motion || self.arcs
+    /// True for a motion before which cycles are to be ended.
+    fn are_before(self, op: Op) -> bool {
+        op.group() == Group::Motion && op != Op::RapidOnce && (self.motion || self.arcs && op.is_arc())
     }
 }
 
@@ -93,10 +95,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 /// True for a block that names a motion before which cycles are to be ended, and ends none itself.
 fn is_motion(nc: &Nc, before: Ends) -> bool {
     let ends = |op: Op| op.is_cycle() || op.is_hole() || op == Op::CycleOff;
-    let moves = |op: Op| {
-        op.group() == Group::Motion && op != Op::RapidOnce && (before.motion || before.arcs && op.is_arc())
-    };
-    nc.ops().any(moves) && !nc.ops().any(ends)
+    nc.ops().any(|op| before.are_before(op)) && !nc.ops().any(ends)
 }
 
 /// True for a rotation with its centre: under a cycle that a program finds in force, its words would be a hole.

@@ -28,8 +28,12 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
         && source.bare_feed() == BareLength::Unknown
 }
 
-/// Gives them their value.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// Gives them their value; true if there are any.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let blocks = module.programs.iter().flat_map(|program| &program.blocks);
+    if !blocks.flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc()).any(has_count) {
+        return false;
+    }
     let facts = context.modal_facts(module);
     let usual = Usual::of(module, context.source);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
@@ -53,6 +57,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
         out.push(stmt);
     });
+    true
+}
+
+/// True where a feed is a count of increments.
+fn has_count(nc: &Nc) -> bool {
+    nc.items.iter().any(|item| match item {
+        NcItem::Word(Role::Feed, Expr::Negate(inner)) => matches!(**inner, Expr::Increments(_)),
+        NcItem::Word(Role::Feed, value) => matches!(value, Expr::Increments(_)),
+        _ => false,
+    })
 }
 
 /// Takes counts in the feeds of a block as they are written; true where there were any.

@@ -52,7 +52,7 @@ pub(super) const SOURCE: &[Pass] = &[
     .when(|c, _| c.has(Feature::Computed)),
     Pass::edits("other-kind", "refuses programs of the other kind of machine", other_kind::run)
         .when(other_kind::concerns),
-    Pass::rewrites(
+    Pass::edits(
         "bare-feeds",
         "feeds without a decimal point get the value that the modes give",
         bare_feeds::run,

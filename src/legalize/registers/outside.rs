@@ -15,6 +15,10 @@ use crate::legalize::registers::names::{in_a_sentence, name_of};
 
 /// Reports variables that nothing here sets and that have another number on the target: of all of them in one sentence.
 pub fn run(module: &Module, context: &mut Context<'_>) {
+    // A program of plain moves has none.
+    if context.registers.of.is_empty() {
+        return;
+    }
     let written = written(module);
     let reads: Vec<VarSet> = look_at_each(module, |_, program| read(program));
     let moved = |var: &Var| {
