@@ -19,11 +19,14 @@ use crate::legalize::Context;
 use crate::legalize::calls::standing;
 use crate::legalize::registers::map::{Register, Registers};
 use crate::syntax::ProgramName;
+use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 const QUESTION: Question = Question::PowerOffValues;
+/// Whether the source keeps a variable, and whether it comes after a program that is not in the library.
+const WAYS: [(bool, bool); 4] = [(true, false), (false, false), (true, true), (false, true)];
 const KEEPS: Question = Question::CommonAtPowerOn;
 
 /// Reports variables whose life differs.
@@ -81,27 +84,34 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     let roots = roots(module);
     // Where nothing outside is called, nothing comes after it.
     let ours = if before.is_some() { written(module, &roots, context) } else { HashMap::new() };
-    let asked = context.source.to_settle(QUESTION.fact(), Side::Source);
-    let of = |index: usize, (kept, after): (bool, bool)| -> Vec<usize> {
+    let asked = Diagnostic::new(Code::OtherRetention, Span::default(), "")
+        .with_help(context.source.to_settle(QUESTION.fact(), Side::Source))
+        .with_fact(QUESTION.fact())
+        .asked_once();
+    // Of a program, what is shown in each of the ways.
+    let of = |index: usize| -> [Vec<usize>; 4] {
         let is_at_entry = upward_exposed.at_entry_of(index);
         let is_before = before.as_ref().map(|before| before.at_entry_of(index));
         let is_ours = |var: Var| ours.get(&index).is_some_and(|ours| ours.contains(var));
         let is_after = |var: Var| {
             is_before.as_ref().is_some_and(|is_before| !is_before(var)) && (is_needed || !is_ours(var))
         };
-        let shown = lives.iter().enumerate();
-        let shown =
-            shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var) && is_after(*var) == after);
-        shown.map(|(at, _)| at).collect()
+        let mut shown: [Vec<usize>; 4] = Default::default();
+        for (at, (var, kept, _)) in lives.iter().enumerate().filter(|(_, (var, ..))| is_at_entry(*var)) {
+            let way = WAYS.iter().position(|way| *way == (*kept, is_after(*var)));
+            way.into_iter().for_each(|way| shown[way].push(at));
+        }
+        shown
     };
-    let ways = [(true, false), (false, false), (true, true), (false, true)];
     // One question of the library names all of its variables.
-    let all = ways.map(|way| roots.iter().flat_map(|root| of(*root, way)).collect::<BTreeSet<usize>>());
+    let mut all: [BTreeSet<usize>; 4] = Default::default();
+    for root in &roots {
+        all.iter_mut().zip(of(*root)).for_each(|(all, shown)| all.extend(shown));
+    }
     let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
     for index in roots {
         let span = module.programs[index].site.span;
-        for (way, all) in ways.into_iter().zip(&all) {
-            let (shown, (kept, after)) = (of(index, way), way);
+        for (((kept, after), shown), all) in WAYS.into_iter().zip(of(index)).zip(&all) {
             if shown.is_empty() {
                 continue;
             }
@@ -117,12 +127,13 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
                 context.add(index, Diagnostic::new(Code::LeftByOthers, span, what));
                 continue;
             }
-            let finding = Diagnostic::new(Code::OtherRetention, span, what.clone());
+            let finding = || Diagnostic::new(Code::OtherRetention, span, what.clone());
             let finding = match is_needed {
                 // After a program that stands in the machine it mostly is what that one left.
-                true if after => finding.asked_once(),
-                true => finding,
-                false => finding.with_help(&*asked).with_fact(QUESTION.fact()).asked_once(),
+                true if after => finding().asked_once(),
+                true => finding(),
+                // Programs of a library share what there is to do about it.
+                false => Diagnostic { span, message: what.clone(), ..asked.clone() },
             };
             context.add(index, finding);
         }
