@@ -10,10 +10,13 @@
 use super::block_calls::calls_of;
 use super::cfg::reachable;
 use super::computed_calls::{Callees, computed_calls};
-use super::modal::Modal;
+use super::modal::{Modal, Setting};
 use super::touches::{Place, Touches, routines};
+use crate::canon::Group;
 use crate::ir::analysis::dataflow::{Lattice, Routines};
-use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, Stmts, TermKind};
+use crate::ir::{
+    Block, BlockId, Call, Callee, Expr, Module, NcItem, Program, Stmt, StmtKind, Stmts, TermKind,
+};
 use crate::syntax::{Label, ProgramName};
 use foldhash::HashMap;
 use std::borrow::Cow;
@@ -63,12 +66,32 @@ impl ModalFacts {
 
     /// The state at the start of a block.
     pub fn at(&self, program: usize, block: BlockId) -> Modal {
+        self.entry(program, block).cloned().unwrap_or_else(Modal::unknown)
+    }
+
+    /// The same, where a path leads there.
+    fn entry(&self, program: usize, block: BlockId) -> Option<&Modal> {
         let own = match self.firsts.get(program..) {
             Some([first, end, ..]) => self.entries.get(*first..*end),
             _ => None,
         };
-        let entry = own.and_then(|own| own.get(block.index()));
-        entry.and_then(Option::as_deref).cloned().unwrap_or_else(Modal::unknown)
+        own?.get(block.index())?.as_deref()
+    }
+
+    /// The unit of a block, where nothing in it may select another: so it is of nearly all.
+    pub fn unit_all_through(&self, program: usize, id: BlockId, block: &Block) -> Option<Setting> {
+        let entry = self.entry(program, id);
+        let keeps = |item: &NcItem| match item {
+            NcItem::Op(op) => op.group() != Group::Units,
+            NcItem::Code(letter, _) => *letter != 'G',
+            NcItem::Word(..) => true,
+        };
+        let keeps = |stmt: &Stmt| match &stmt.kind {
+            StmtKind::Nc(nc) => nc.items.iter().all(keeps),
+            kind => !matches!(kind, StmtKind::ModalCall(_) | StmtKind::ModalCallOff),
+        };
+        let known = entry.is_none_or(|entry| !entry.may_call()) && block.stmts.iter().all(keeps);
+        known.then(|| entry.map_or(Setting::Unknown, |entry| entry.of(Group::Units)))
     }
 
     /// Goes through all statements of a library, each with the index of its program and what is in force before and after it.
@@ -215,7 +238,7 @@ impl<'m> Analysis<'m> {
                 }
             }
             TermKind::Return { to } => self.returned((index, id), to.as_ref(), &state),
-            kind => kind.successors().into_iter().for_each(|to| self.go((index, to), &state)),
+            kind => kind.each_successor(&mut |to| self.go((index, to), &state)),
         }
     }
 

@@ -200,7 +200,9 @@ fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> Arc<ModalFact
     entry.one_unit = all.is_one();
     // Where no program names a unit, it is the machine's all through.
     let known = context.entry.op(Group::Units).is_some() || all != ExitUnit::default();
-    if known { context.modal_facts_from(module, &entry) } else { Arc::new(ModalFacts::unknown()) }
+    // A unit that no run begins in, and no program names, is in force nowhere.
+    let told = entry.op(Group::Units).is_some() || all.names_any();
+    if known && told { context.modal_facts_from(module, &entry) } else { Arc::new(ModalFacts::unknown()) }
 }
 
 /// What a program that names one unit has in force where every way to a place names it, and nothing in the library that
@@ -222,7 +224,11 @@ struct UnitsIn(BTreeMap<BlockId, Vec<Option<Units>>>);
 impl UnitsIn {
     fn of(program: &Program, index: usize, facts: &ModalFacts, chosen: &dyn Fn(&Block) -> bool) -> Self {
         let blocks = program.ids().zip(&program.blocks).filter(|(_, block)| chosen(block));
-        Self(blocks.map(|(id, block)| (id, Self::in_block(block, facts.at(index, id)))).collect())
+        let known = |id, block: &Block| match facts.unit_all_through(index, id, block) {
+            Some(setting) => vec![unit(&setting); block.stmts.len() + 1],
+            None => Self::in_block(block, facts.at(index, id)),
+        };
+        Self(blocks.map(|(id, block)| (id, known(id, block))).collect())
     }
 
     fn in_block(block: &Block, mut state: Modal) -> Vec<Option<Units>> {

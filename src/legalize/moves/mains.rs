@@ -28,6 +28,9 @@ pub(in crate::legalize) fn returns(program: &Program) -> bool {
 
 /// True where a program may end so, outside its subroutines.
 pub(super) fn leaves_by(program: &Program, ends: impl Fn(&TermKind) -> bool) -> bool {
+    if !program.blocks.iter().any(|block| ends(&block.term.kind)) {
+        return false;
+    }
     let own = reachable(program, BlockId(0));
     own.into_iter().filter_map(|id| program.block(id)).any(|block| ends(&block.term.kind))
 }

@@ -16,12 +16,12 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Settled, Side, Units};
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
-use crate::ir::analysis::dataflow::{Lattice, reached};
+use crate::ir::analysis::dataflow::{Lattice, reached_among};
 use crate::ir::{BlockId, Callee, Expr, Module, NcItem, Place, Program, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::moves::increments::units_named;
-use crate::legalize::{Context, ModalFacts, calls_of};
+use crate::legalize::{Context, ModalFacts, Setting, calls_of};
 use crate::text::Span;
 use exit::ExitUnit;
 use std::collections::BTreeSet;
@@ -200,19 +200,29 @@ pub(super) fn open(module: &Module, facts: &ModalFacts, called: &CalledPrograms,
         for id in with_subroutines(program) {
             // What it calls says no more of one that is open itself.
             let Some(block) = program.block(id).filter(|_| !open[index]) else { break };
-            let mut state = facts.at(index, id);
-            for stmt in &block.stmts {
-                // A modal call that the block sets off comes after it.
-                let before = state.op(Group::Units);
-                state.step(stmt);
-                if before.or(state.op(Group::Units)).is_none() {
-                    open[index] |= has_length(&stmt.kind, zeros);
-                    if let StmtKind::ModalCall(call) = &stmt.kind {
-                        enter(called.by((index, id), call));
-                    }
+            let is_named = match facts.unit_all_through(index, id, block) {
+                Some(Setting::Known(..)) => true,
+                Some(Setting::Unknown) => {
+                    open[index] |= block.stmts.iter().any(|stmt| has_length(&stmt.kind, zeros));
+                    false
                 }
-            }
-            if state.op(Group::Units).is_none() {
+                None => {
+                    let mut state = facts.at(index, id);
+                    for stmt in &block.stmts {
+                        // A modal call that the block sets off comes after it.
+                        let before = state.op(Group::Units);
+                        state.step(stmt);
+                        if before.or(state.op(Group::Units)).is_none() {
+                            open[index] |= has_length(&stmt.kind, zeros);
+                            if let StmtKind::ModalCall(call) = &stmt.kind {
+                                enter(called.by((index, id), call));
+                            }
+                        }
+                    }
+                    state.op(Group::Units).is_some()
+                }
+            };
+            if !is_named {
                 open[index] |= reads_length(|f| block.term.kind.exprs(f));
                 if let TermKind::Call { call, .. } = &block.term.kind {
                     enter(called.by((index, id), call));
@@ -225,18 +235,17 @@ pub(super) fn open(module: &Module, facts: &ModalFacts, called: &CalledPrograms,
 }
 
 /// The blocks that a program can run, those of its subroutines too.
-fn with_subroutines(program: &Program) -> BTreeSet<BlockId> {
-    let mut all = reached([BlockId(0)], |id, go| {
-        let Some(block) = program.block(id) else { return };
-        block.term.kind.successors().into_iter().for_each(&mut *go);
+fn with_subroutines(program: &Program) -> impl Iterator<Item = BlockId> + use<> {
+    let all = reached_among(program.blocks.len(), [0], |at, go| {
+        let Some(block) = program.blocks.get(at) else { return };
+        block.term.kind.each_successor(&mut |to| go(to.index()));
         calls_of(block).for_each(|call| {
             if let Callee::Block(entry) = call.callee {
-                go(entry);
+                go(entry.index());
             }
         });
     });
-    all.retain(|id| program.block(*id).is_some());
-    all
+    program.ids().zip(all).filter(|(_, reached)| *reached).map(|(id, _)| id)
 }
 
 /// True for a statement in which the unit counts; one whose lengths are 0 is one if `zeros` count.

@@ -84,6 +84,11 @@ impl ExitUnit {
         !(self.inch && self.metric || self.computed || self.outside)
     }
 
+    /// True where it names one.
+    pub fn names_any(self) -> bool {
+        self.inch || self.metric
+    }
+
     /// The one unit that it names.
     pub fn named(self) -> Option<Units> {
         match (self.inch, self.metric) {
@@ -116,8 +121,9 @@ fn own(module: &Module, context: &Context<'_>) -> Vec<ExitUnit> {
                 for item in &nc.items {
                     match item {
                         NcItem::Op(op) => left[index].name(*op),
-                        NcItem::Code('G', value) => {
-                            left[index].computed |= numbers(value, &assigned, id, at, source)
+                        // One that may be any is enough.
+                        NcItem::Code('G', value) if !left[index].computed => {
+                            left[index].computed = numbers(value, &assigned, id, at, source)
                                 .is_none_or(|all| all.iter().any(|n| is_unit(n.number)));
                         }
                         _ => {}
