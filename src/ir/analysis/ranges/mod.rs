@@ -33,6 +33,7 @@ use followed::{followed, in_codes, in_whole_words, stops, told_of};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Most visits to blocks, a variable each; beyond, everything may be anything.
 const STEPS: usize = 400_000;
@@ -43,8 +44,8 @@ const PATIENCE: u32 = 5;
 /// A block whose values change more often than this tells nothing.
 const MOST_CHANGES: u32 = 60;
 
-/// What the followed variables may be, in the order of their places.
-type State = Vec<Values>;
+/// What the followed variables may be, in the order of their places. Most blocks change nothing, and share one.
+type State = Arc<Vec<Values>>;
 
 /// The values of a program's variables.
 pub struct Ranges<'p> {
@@ -68,7 +69,7 @@ struct Rules<'p> {
     standard: bool,
 }
 
-impl Lattice for State {
+impl Lattice for Vec<Values> {
     fn join(&mut self, other: &Self) -> bool {
         let mut changed = false;
         for (mine, theirs) in self.iter_mut().zip(other).filter(|(mine, theirs)| !mine.has_all_of(theirs)) {
@@ -80,6 +81,22 @@ impl Lattice for State {
     }
 }
 
+impl Lattice for State {
+    fn join(&mut self, other: &Self) -> bool {
+        let adds =
+            |(mine, theirs): (&Values, &Values)| !mine.has_all_of(theirs) && mine.join(theirs) != *mine;
+        let changes = !Arc::ptr_eq(self, other) && self.iter().zip(&**other).any(adds);
+        changes && Arc::make_mut(self).join(other)
+    }
+}
+
+/// Puts a value in the place of another.
+fn set(state: &mut State, at: usize, value: Values) {
+    if state[at] != value {
+        Arc::make_mut(state)[at] = value;
+    }
+}
+
 impl Analysis for Rules<'_> {
     type State = State;
     const DIRECTION: Direction = Direction::Forward;
@@ -87,7 +104,8 @@ impl Analysis for Rules<'_> {
     fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, State)> {
         let come_back = labelled(self.program).filter(|_| self.summaries.come_back_to(self.program));
         let all: BTreeSet<BlockId> = cfg.roots().iter().copied().chain(come_back).collect();
-        all.into_iter().map(|id| (id, vec![Values::ANY; self.places.len()])).collect()
+        let any = Arc::new(vec![Values::ANY; self.places.len()]);
+        all.into_iter().map(|id| (id, any.clone())).collect()
     }
 
     fn block(&self, id: BlockId, block: &Block, state: &mut State) {
@@ -106,8 +124,15 @@ impl Analysis for Rules<'_> {
 
     /// A loop that counts goes on to where it may stop, and one that never settles tells nothing.
     fn merge(&self, state: &mut State, other: &State, before: u32) -> bool {
+        if Arc::ptr_eq(state, other) {
+            return false;
+        }
         let mut changed = false;
-        for (mine, theirs) in state.iter_mut().zip(other).filter(|(mine, theirs)| !mine.has_all_of(theirs)) {
+        for (at, theirs) in other.iter().enumerate() {
+            let mine = &state[at];
+            if mine.has_all_of(theirs) {
+                continue;
+            }
             let joined = mine.join(theirs);
             let next = match before {
                 _ if joined == *mine => continue,
@@ -116,7 +141,7 @@ impl Analysis for Rules<'_> {
                 _ => Values::ANY,
             };
             changed |= *mine != next;
-            *mine = next;
+            set(state, at, next);
         }
         changed
     }
@@ -127,12 +152,13 @@ impl Steps for Rules<'_> {
         let skipped = stmt.site.skip.is_some();
         match &stmt.kind {
             // Nobody comes past it.
-            _ if is_final(stmt) => state.fill(Values::Few(Vec::new())),
+            _ if is_final(stmt) => Arc::make_mut(state).fill(Values::Few(Vec::new())),
             StmtKind::Assign { target: Place::Var(var), value } => {
                 if let Some(at) = self.places.get(var) {
                     let input = self.inputs.contains(&place);
                     let value = if input { Values::ANY } else { self.evaluate(value, state) };
-                    state[*at] = if skipped { state[*at].join(&value) } else { value };
+                    let value = if skipped { state[*at].join(&value) } else { value };
+                    set(state, *at, value);
                 }
             }
             StmtKind::Assign { target: Place::Indirect(bank, index), value } => {
@@ -145,7 +171,8 @@ impl Steps for Rules<'_> {
             StmtKind::Input { target: Place::Var(var), .. } => self.forget(state, |other| other == *var),
             StmtKind::ClearAll(class) => {
                 for (_, at) in self.places.iter().filter(|(var, _)| var.class == *class) {
-                    state[*at] = state[*at].join(&Values::one(0.0));
+                    let value = state[*at].join(&Values::one(0.0));
+                    set(state, *at, value);
                 }
             }
             StmtKind::Nc(nc) => {
@@ -263,12 +290,12 @@ impl Rules<'_> {
                 if let Some(at) = self.places.get(&var) {
                     let met = kept[*at].meet(&values);
                     if met != kept[*at] {
-                        kept.to_mut()[*at] = met;
+                        set(kept.to_mut(), *at, met);
                     }
                 }
             },
         );
-        kept.iter().zip(state).all(|(kept, before)| before.is_empty() || !kept.is_empty()).then_some(kept)
+        kept.iter().zip(&**state).all(|(kept, before)| before.is_empty() || !kept.is_empty()).then_some(kept)
     }
 
     /// True where a condition compares a variable that is followed.
@@ -283,7 +310,8 @@ impl Rules<'_> {
         let numbers = self.evaluate(index, state).numbers();
         for (var, at) in &self.places {
             if Vars::bank(bank).contains(&var.class) && numbers.contains(var.number) {
-                state[*at] = state[*at].join(value);
+                let value = state[*at].join(value);
+                set(state, *at, value);
             }
         }
     }
@@ -298,7 +326,7 @@ impl Rules<'_> {
 
     fn forget(&self, state: &mut State, which: impl Fn(Var) -> bool) {
         for (_, at) in self.places.iter().filter(|(var, _)| which(**var)) {
-            state[*at] = Values::ANY;
+            set(state, *at, Values::ANY);
         }
     }
 }
