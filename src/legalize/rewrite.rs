@@ -8,8 +8,8 @@ use crate::ir::{
     PrintPart, Program, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 use crate::text::Span;
-use lay::lay;
 pub(super) use lay::unless_skipped;
+use lay::{insert, lay};
 use std::collections::VecDeque;
 
 /// Where an expression stands.
@@ -198,7 +198,9 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
         let end = block.stmts.len();
         each(end, block.term.site.span, &mut |f| terminator(&mut block.term.kind, f));
     }
-    if preludes.is_empty() {
+    if preludes.iter().flat_map(|(.., steps)| steps).all(|step| matches!(step, PreStatement::Assign(..))) {
+        // Blocks stay what they are.
+        insert(program, preludes);
         return any;
     }
     let mut place = (0, 0);

@@ -1,7 +1,8 @@
 //! Lays down what runs before a statement.
 
 use super::PreStatement;
-use crate::ir::{BlockId, Builder, Cond, Place, SourceInfo, StmtKind, TermKind};
+use crate::ir::{BlockId, Builder, Cond, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
+use std::collections::VecDeque;
 
 /// Lays the steps down, for a statement of this site.
 pub(super) fn lay(builder: &mut Builder, prelude: Vec<PreStatement>, site: &SourceInfo) {
@@ -43,6 +44,33 @@ pub(super) fn lay(builder: &mut Builder, prelude: Vec<PreStatement>, site: &Sour
                 builder.start(after);
             }
         }
+    }
+}
+
+/// Puts assignments before the statements that they are for, the last of a block before its end: by block and statement, in order.
+pub(super) fn insert(program: &mut Program, mut preludes: VecDeque<(usize, usize, Vec<PreStatement>)>) {
+    while let Some(id) = preludes.front().map(|(id, ..)| *id) {
+        let Some(block) = program.blocks.get_mut(id) else { return };
+        let own = preludes.partition_point(|(other, ..)| *other == id);
+        let more: usize = preludes.iter().take(own).map(|(.., steps)| steps.len()).sum();
+        let mut stmts = std::mem::take(&mut block.stmts).into_iter();
+        let mut laid = Stmts::with_capacity(stmts.len() + more);
+        let mut next = 0;
+        for (_, at, steps) in preludes.drain(..own) {
+            laid.extend(stmts.by_ref().take(at - next));
+            next = at;
+            let site = stmts.as_slice().first().map_or(&block.term.site, |stmt| &stmt.site);
+            let skip = site.skip;
+            laid.extend(steps.into_iter().filter_map(|step| match step {
+                PreStatement::Assign(var, value) => Some(Stmt {
+                    kind: StmtKind::Assign { target: Place::Var(var), value },
+                    site: SourceInfo { skip, ..SourceInfo::default() },
+                }),
+                _ => None,
+            }));
+        }
+        laid.extend(stmts);
+        block.stmts = laid;
     }
 }
 
