@@ -81,11 +81,18 @@ fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut C
             {
                 continue;
             }
+            let clear = before.is_some_and(|op| op == Op::CycleOff || BORES.contains(&op));
+            let flat = !context.features.op(Op::PlaneZx) && !context.features.op(Op::PlaneYz);
+            let has = [Role::CycleI, Role::CycleJ].iter().all(|role| takes(target, op, *role));
+            let says = has && clear && flat;
             match (here, there) {
                 (Some(here), Some(there)) if here == there => {}
                 (None, None) => {
                     context.rests_on_source(index, span, Question::CycleShift);
-                    context.rests_on_target(index, span, Question::CycleShift);
+                    // Once the way of the source is known, the words say it there.
+                    if !says {
+                        context.rests_on_target(index, span, Question::CycleShift);
+                    }
                 }
                 (None, Some(_)) => {
                     let help = source.to_settle(Question::CycleShift.fact(), Side::Source);
@@ -96,10 +103,7 @@ fn each(program: &mut Program, states: Vec<Modal>, index: usize, context: &mut C
                     );
                 }
                 (Some(way), there) => {
-                    let clear = before.is_some_and(|op| op == Op::CycleOff || BORES.contains(&op));
-                    let flat = !context.features.op(Op::PlaneZx) && !context.features.op(Op::PlaneYz);
-                    let has = [Role::CycleI, Role::CycleJ].iter().all(|role| takes(target, op, *role));
-                    if has && clear && flat {
+                    if says {
                         write(nc, way);
                         changed = true;
                         continue;

@@ -2,12 +2,12 @@
 //!
 //! Law: none. With the management of tool life T calls a group, and offset 99 (`T0199`, `H99`, `D99`) is that of the tool which the control
 //! chose: no number of the target is that. Without it 99 is an offset like others. What the machine has is asked once; a profile that
-//! gives it fewer offsets than 99 says it. Counter-example: `T0199` as tool 1 with offset 99 of the target, which nobody has set.
+//! gives it fewer offsets than 99 says it. A program that calls tool 99 itself has 99 as the offset of that tool, and asks nothing. Counter-example: `T0199` as tool 1 with offset 99 of the target, which nobody has set.
 
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, turret_parts};
-use crate::ir::{Expr, Module, Nc};
+use crate::ir::{Expr, Module, Nc, Program};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
@@ -33,6 +33,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
     let known = here == "group";
     for (index, program) in module.programs.iter().enumerate() {
+        if !known && calls_tool(program) {
+            continue;
+        }
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let Some(nc) = stmt.kind.nc() else { continue };
             let Some(offset) = offsets(nc).find(|n| *n == OF_GROUP || known && *n == LETS_GO && turns(nc))
@@ -51,6 +54,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help));
         }
     }
+}
+
+/// True where a program calls the tool of that number, so that its offset is one like others.
+fn calls_tool(program: &Program) -> bool {
+    let mut ncs = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+    ncs.any(|nc| nc.word(Role::Tool).and_then(Expr::constant) == Some(OF_GROUP))
 }
 
 /// True for a tool word of a lathe.
