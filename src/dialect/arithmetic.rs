@@ -51,8 +51,14 @@ mod tests {
             ("dialect = \"fanuc\"\n[parameters]\n6008.0 = \"0\"", true),
             ("dialect = \"fanuc\"\n[parameters]\n6008.0 = \"1\"", false),
             ("dialect = \"fadal\"", false),
+            ("dialect = \"haas\"\nconfirm = [\"setting.arithmetic=double\"]", true),
+            ("dialect = \"fanuc\"\nconfirm = [\"parameter.6008.0=0\"]", true),
         ] {
             assert_eq!(Control::from_profile(text).unwrap().is_said_double(), double, "{text}");
         }
+        let both = "dialect = \"haas\"\nconfirm = [\"setting.arithmetic=double\"]\n[settings]\narithmetic = \"single\"";
+        assert!(Control::from_profile(both).is_err());
+        let none = "dialect = \"haas\"\nconfirm = [\"setting.arithmetic=triple\"]";
+        assert!(Control::from_profile(none).is_err());
     }
 }

@@ -52,6 +52,7 @@ mod standing;
 mod standing_results;
 mod start;
 mod stated;
+mod stated_groups;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -80,7 +81,7 @@ pub use page::page;
 pub use profile::{
     Axis, DecimalPoint, LineEnds, Machine, Outputs, Plain, Profile, Signal, Units, VariableRun,
 };
-pub use question_groups::QuestionGroup;
+pub use question_groups::{HALTS, HALTS_ASKED, HALTS_WORDS, QuestionGroup};
 pub use questions::Question;
 pub use reader::{faults_as_text, faults_of_files};
 pub use registry::Entry;

@@ -18,6 +18,7 @@ impl Control {
         overlay.check_dialect(entry);
         overlay.keep_answers(&mut dialect);
         leave_open(&mut dialect);
+        overlay.confirmed_settings();
         let settings = overlay.settings(&dialect);
         overlay.apply(&mut dialect, &settings);
         overlay.check_machine(&dialect);

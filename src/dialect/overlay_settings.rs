@@ -2,12 +2,34 @@
 
 use super::control::numbered;
 use super::overlay::{Overlay, conditions};
+use super::profile::Plain;
 use super::reader::closest;
 use super::{BareLength, Behaviour, Dialect, Mark, OneTable, Origin, Question, Setting, TABLE_ROWS};
 use crate::canon::Op;
 use std::collections::BTreeMap;
 
 impl Overlay {
+    /// Puts settings that the profile confirms, `parameter.6050=100`, where it states the others.
+    pub(super) fn confirmed_settings(&mut self) {
+        let all = std::mem::take(&mut self.profile.confirm);
+        for fact in all {
+            let tables =
+                [("parameter.", &mut self.profile.parameters), ("setting.", &mut self.profile.settings)];
+            let of = |stem: &str| Some(fact.strip_prefix(stem)?.split_once('='));
+            let found = tables.into_iter().find_map(|(stem, table)| Some((of(stem)??, table)));
+            let Some(((key, value), table)) = found else {
+                self.profile.confirm.push(fact);
+                continue;
+            };
+            let stated =
+                table.entry(key.to_owned()).or_insert_with(|| Plain::Word(value.to_owned())).to_string();
+            if stated != value {
+                let message = format!("'{fact}' is confirmed, and '{key}' is '{stated}' below");
+                self.fault(&format!("confirm:{fact}"), message, "keep one of the two".into());
+            }
+        }
+    }
+
     /// The values of all settings: the table's, then the profile's.
     pub(super) fn settings(&mut self, dialect: &Dialect) -> BTreeMap<String, String> {
         let mut values: BTreeMap<String, String> = (dialect.settings.iter())

@@ -9,7 +9,7 @@ pub struct QuestionGroup {
     pub name: &'static str,
     /// What it asks.
     pub meaning: &'static str,
-    /// Its questions, which have the same answers.
+    /// Its questions, which all have the answers of the first.
     pub questions: &'static [Question],
 }
 
@@ -44,7 +44,25 @@ const GROUPS: &[QuestionGroup] = &[
         meaning: "what a calculation without a result does: a division by zero, the root of a negative number",
         questions: &[Question::DivideByZero, Question::SqrtOfNegative],
     },
+    QuestionGroup {
+        name: "places",
+        meaning: "whether places in machine coordinates, and work offsets that programs write as numbers, are right on this machine too, or are those of \
+                  another: where only one of the two is so, or zero alone is meant as the home of each machine, answer 'machine.places' and \
+                  'work.places'",
+        questions: &[Question::WorkPlaces, Question::MachinePlaces],
+    },
 ];
+
+/// The line of a profile that answers for several stops at once: `"halts.end" = "stop yes, message no"`.
+pub const HALTS: &str = "halts.end";
+
+/// What that line asks.
+pub const HALTS_ASKED: &str = "what stops the spindle and switches coolant off: a program stop, a stop with a message, a tool change; where one of them \
+                               ends only one of the two, take it out and answer 'stop.ends.spindle' and 'stop.ends.coolant' (message.ends, change.ends)";
+
+/// Its words, each with the group that it answers.
+pub const HALTS_WORDS: [(&str, &str); 3] =
+    [("stop", "stop.ends"), ("message", "message.ends"), ("change", "change.ends")];
 
 impl QuestionGroup {
     /// The group with this name.
@@ -87,9 +105,26 @@ mod tests {
         for group in QuestionGroup::all() {
             assert!(Question::find(group.name).is_none() && group.questions.len() > 1, "{}", group.name);
             for question in group.questions {
-                assert_eq!(question.answers(), group.answers(), "{question}");
+                let (own, all) = (question.answers().written(&[]), group.answers().written(&[]));
+                assert!(all.split(" or ").all(|one| own.contains(one)), "{question}");
                 assert_eq!(QuestionGroup::of(*question), Some(group), "{question}");
             }
         }
+    }
+
+    /// Nobody's table answers where places are right, so the name answers both by itself.
+    #[test]
+    fn places_are_answered_under_one_name() {
+        let read = |more: &str| {
+            Control::from_profile(&format!("dialect = \"haas\"\n[behaviours]\nplaces = \"other\"\n{more}"))
+                .unwrap()
+        };
+        let says = |control: &Control, question| control.behaviour(question).map(|row| row.value.clone());
+        let both = read("");
+        assert_eq!(says(&both, Question::MachinePlaces).as_deref(), Some("other"));
+        assert_eq!(says(&both, Question::WorkPlaces).as_deref(), Some("other"));
+        let home = read("\"machine.places\" = \"home\"\n");
+        assert_eq!(says(&home, Question::MachinePlaces).as_deref(), Some("home"));
+        assert_eq!(says(&home, Question::WorkPlaces).as_deref(), Some("other"));
     }
 }

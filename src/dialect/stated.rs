@@ -7,13 +7,14 @@ use super::profile::Plain;
 use super::reader::closest;
 use super::rows::Limit;
 use super::{
-    Behaviour, CodeHead, Control, Dialect, Mark, Origin, Question, QuestionGroup, Row, matters, registry,
+    Behaviour, CodeHead, Control, Dialect, HALTS, Mark, Origin, Question, QuestionGroup, Row, matters,
+    registry,
 };
 use crate::canon::Func;
 use std::collections::BTreeMap;
 
 /// Answers that leave a question open.
-const OPEN: [&str; 2] = ["unknown", SETTING];
+pub(super) const OPEN: [&str; 2] = ["unknown", SETTING];
 
 /// Limits that may be 0: a control need not have such a thing at all.
 const MAY_BE_NONE: [&str; 1] = ["brackets"];
@@ -40,6 +41,8 @@ impl Overlay {
         for (name, value) in groups {
             self.group(dialect, &name, &value);
         }
+        let (halts, single): (Vec<_>, Vec<_>) = single.into_iter().partition(|(name, _)| name == HALTS);
+        halts.iter().for_each(|(_, value)| self.halts(dialect, value));
         for (name, value) in single {
             match stated(dialect, &name, &value) {
                 Ok(question) => match self.contradicted(dialect, question, &value) {
@@ -54,42 +57,8 @@ impl Overlay {
         }
     }
 
-    /// Puts the answer to a group of questions in place of those that the table leaves open, and the profile too.
-    fn group(&mut self, dialect: &mut Dialect, name: &str, value: &str) {
-        let Some(group) = QuestionGroup::find(name) else { return };
-        let place = format!("behaviours:{name}");
-        if !group.answers().admits(value) || OPEN.contains(&value) {
-            let help = format!("it is {}", group.answers().written(&[]));
-            return self.fault(&place, format!("'{value}' is not a value of {name}"), help);
-        }
-        let row = |question: &Question| dialect.behaviours.iter().find(|row| row.question == *question);
-        let asked: Vec<Question> =
-            group.questions.iter().copied().filter(|question| row(question).is_some()).collect();
-        if asked.is_empty() {
-            let help = "it has nothing that the questions are about: remove the line".to_owned();
-            return self.fault(&place, format!("{} is not asked '{name}'", dialect.title), help);
-        }
-        for question in asked {
-            let Some(row) = dialect.behaviours.iter().find(|row| row.question == question) else { continue };
-            let is_open = OPEN.contains(&row.value.as_str()) || !row.origin.is_settled();
-            let is_single =
-                self.profile.behaviours.contains_key(question.name()) || self.is_set(dialect, question);
-            if !is_open && !is_single && row.value != value {
-                let message =
-                    format!("{question} is '{}' in the table, and {name} says '{value}'", row.value);
-                let help = format!("answer {question} by itself, if this machine is not so");
-                self.fault(&place, message, help);
-            } else if is_open && !is_single {
-                match stated(dialect, question.name(), value) {
-                    Ok(question) => answer(dialect, question, value.to_owned()),
-                    Err((message, help)) => self.fault(&place, message, help),
-                }
-            }
-        }
-    }
-
     /// True where a setting that the profile states answers a question.
-    fn is_set(&self, dialect: &Dialect, question: Question) -> bool {
+    pub(super) fn is_set(&self, dialect: &Dialect, question: Question) -> bool {
         let mut rows = dialect.settings.iter().filter(|row| self.stated.contains(&row.name));
         rows.any(|row| row.sets.values().any(|sets| sets.contains_key(question.fact())))
     }
@@ -223,7 +192,7 @@ impl Overlay {
 }
 
 /// The question that a profile answers; else what is wrong, and what to do.
-fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (String, String)> {
+pub(super) fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (String, String)> {
     let Some(question) = Question::find(name) else {
         let groups = QuestionGroup::all().iter().map(|group| group.name);
         let help = match closest(name, Question::ALL.iter().map(|known| known.name()).chain(groups)) {
@@ -279,7 +248,7 @@ fn acts_by(dialect: &Dialect, question: Question, row: Option<&Behaviour>, value
             .any(|other| other.family == dialect.family && gives(other))
 }
 
-fn answer(dialect: &mut Dialect, question: Question, value: String) {
+pub(super) fn answer(dialect: &mut Dialect, question: Question, value: String) {
     let open = OPEN.contains(&value.as_str());
     let note = open.then(|| "the machine profile leaves it open".into());
     let mark = if open { Mark::Unconfirmed } else { Mark::Confirmed };

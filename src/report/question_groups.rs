@@ -1,13 +1,14 @@
 //! Questions of a machine that one answer of its profile settles, as one.
 
 use super::questions::{Fact, KEPT, Machine, NAMED, Question, Questions};
-use crate::dialect::QuestionGroup;
+use crate::dialect::{HALTS, HALTS_ASKED, HALTS_WORDS, QuestionGroup, Settled};
 
 impl Questions<'_> {
     /// Puts questions of one kind together, of each machine that is asked two of them or more.
     pub fn group(&mut self) {
         for machine in &mut self.machines {
             QuestionGroup::all().iter().for_each(|group| put_together(machine, group));
+            halts(machine);
         }
     }
 }
@@ -26,6 +27,30 @@ fn put_together(machine: &mut Machine<'_>, group: &'static QuestionGroup) {
     members.into_iter().for_each(|member| join(&mut asked, member.asked));
     (asked.text, asked.help) = (group.meaning, None);
     machine.facts.insert(first, Fact { settled_by: group.settled(), asked });
+}
+
+/// One line for what several stops end, where more than one of them is asked.
+fn halts(machine: &mut Machine<'_>) {
+    let control = machine.control;
+    let word_of = |fact: &Fact<'_>| {
+        let of = HALTS_WORDS.iter().filter_map(|(word, name)| Some((*word, QuestionGroup::find(name)?)));
+        let mut of = of
+            .filter(|(_, group)| group.settled() == fact.settled_by || group.has(&fact.settled_by, control));
+        of.next().map(|(word, _)| word)
+    };
+    let words: Vec<Option<&str>> = machine.facts.iter().map(word_of).collect();
+    let asked: Vec<&str> =
+        HALTS_WORDS.iter().map(|(word, _)| *word).filter(|word| words.contains(&Some(word))).collect();
+    let Some(first) = words.iter().position(Option::is_some).filter(|_| asked.len() > 1) else { return };
+    let mut of = words.iter();
+    let mut members: Vec<Fact<'_>> =
+        machine.facts.extract_if(.., |_| of.next().is_some_and(Option::is_some)).collect();
+    let mut whole = members.remove(0).asked;
+    members.into_iter().for_each(|member| join(&mut whole, member.asked));
+    (whole.text, whole.help) = (HALTS_ASKED, None);
+    let answers = asked.iter().map(|word| format!("{word} yes|no")).collect::<Vec<_>>().join(", ");
+    let settled_by = Settled::Answer { question: HALTS.to_owned(), answers: format!("\"{answers}\"") };
+    machine.facts.insert(first, Fact { settled_by, asked: whole });
 }
 
 /// Adds the programs and the places of another question.
