@@ -7,7 +7,8 @@
 use super::{AskedStart, MayCall, Survey};
 use crate::canon::Op;
 use crate::dialect::{
-    Control, DecimalPoint, Plain, Profile, Question, QuestionGroup, Settled, Side, SiteCode, Units, Without,
+    Control, DecimalPoint, HALTS, Plain, Profile, Question, QuestionGroup, Settled, Side, SiteCode, Units,
+    Without,
 };
 use crate::report::Questions;
 use std::collections::BTreeMap;
@@ -184,6 +185,12 @@ fn answer(settled: Settled, other: &Control) -> Option<Answer> {
         // Either answers it.
         Settled::Key { name: "units", .. } => Box::new(|profile| profile.units = Some(Units::Metric)),
         Settled::Key { .. } => Box::new(|profile| profile.decimal_point = Some(DecimalPoint::Calculator)),
+        Settled::Answer { question, answers } if question == HALTS => {
+            let all = answers.trim_matches('"').replace("yes|no", "yes");
+            Box::new(move |profile| {
+                profile.behaviours.insert(HALTS.to_owned(), Plain::Word(all.clone()));
+            })
+        }
         Settled::Answer { question, answers } => {
             let first = QuestionGroup::find(&question).and_then(|group| group.questions.first().copied());
             let there = Question::find(&question).or(first).and_then(|question| other.behaviour(question));

@@ -1,9 +1,11 @@
 //! Codes that may call a program of the library: parameters of a control give some programs a code.
 
-use crate::dialect::Control;
+use super::shape::NAMED;
+use super::{AskedCode, AskedSetting};
+use crate::dialect::{Control, Side};
 use crate::library::{Input, ProgramReport};
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Lines at the head of a program in which its comments name the code that calls it.
 const HEAD: usize = 12;
@@ -19,6 +21,9 @@ pub struct MayCall {
     pub parameter: u32,
     /// True if comments of the program say that the code calls it.
     pub likely: bool,
+    /// True if they say so by the parameter and its value.
+    #[serde(skip)]
+    pub is_stated: bool,
 }
 
 /// The programs of the library that a code may call: those whose comments name it or its parameter, else all of them. A
@@ -50,7 +55,8 @@ pub(super) fn may_call(
                 continue;
             }
             let likely = stated.is_some() || names(&head, &format!("{letter}{number}"));
-            let call = MayCall { program, arguments: rule.arguments, parameter, likely };
+            let is_stated = stated.is_some();
+            let call = MayCall { program, arguments: rule.arguments, parameter, likely, is_stated };
             if likely {
                 told.push(call.clone());
             }
@@ -90,6 +96,76 @@ pub(super) fn answer(calls: &[MayCall], code: &str) -> (Option<String>, String) 
 /// True for a code that is taken to call a program.
 pub(super) fn is_call(calls: &[MayCall], code: &str) -> bool {
     calls.first().is_some_and(|first| first.likely || code.starts_with('G'))
+}
+
+/// The parameters that say which code calls a program, each asked once, where many codes of the builder might call it: their own lines
+/// tell no more of it then. A code of which the program itself says that its parameter gives it the program is no line of its own: that is a
+/// fact to confirm.
+pub(super) fn by_parameter(codes: &mut Vec<AskedCode>, source: &Control) -> Vec<AskedSetting> {
+    let told = |code: &AskedCode| match code.calls.as_slice() {
+        [call] if call.is_stated => setting(source, call.parameter).map(|section| AskedSetting {
+            as_fact: true,
+            likely: code.code.get(1..).map(str::to_owned),
+            meaning: format!("comments of O{} say that {} calls it", call.program, code.code),
+            ..asked(section, call.parameter, code.programs, code.places.clone())
+        }),
+        _ => None,
+    };
+    let stated: Vec<AskedSetting> = codes.iter().filter_map(told).collect();
+    codes.retain(|code| told(code).is_none());
+    let open = by_number(codes, source);
+    stated.into_iter().chain(open).collect()
+}
+
+/// The section of a profile that has a parameter.
+fn setting(source: &Control, parameter: u32) -> Option<&'static str> {
+    let sections = [("parameter.", "parameters"), ("setting.", "settings")];
+    let mut sections = sections.into_iter();
+    sections.find_map(|(stem, section)| source.setting_row(&format!("{stem}{parameter}")).map(|_| section))
+}
+
+fn asked(section: &'static str, parameter: u32, programs: usize, places: Vec<String>) -> AskedSetting {
+    AskedSetting {
+        side: Side::Source,
+        section,
+        name: parameter.to_string(),
+        values: Vec::new(),
+        wanted: Vec::new(),
+        default: None,
+        likely: Some("0".into()),
+        as_fact: false,
+        meaning: String::new(),
+        programs,
+        places,
+    }
+}
+
+fn by_number(codes: &mut [AskedCode], source: &Control) -> Vec<AskedSetting> {
+    let mut found: BTreeMap<(u32, u32), (char, BTreeSet<usize>, Vec<String>)> = BTreeMap::new();
+    let may = |code: &AskedCode| !code.calls.is_empty() && !is_call(&code.calls, &code.code);
+    let concerned: Vec<&AskedCode> = codes.iter().filter(|code| may(code)).collect();
+    for code in &concerned {
+        for call in &code.calls {
+            let letter = code.code.chars().next().unwrap_or('M');
+            let (_, programs, places) =
+                found.entry((call.parameter, call.program)).or_insert((letter, BTreeSet::new(), Vec::new()));
+            programs.extend(&code.of);
+            let new = code.places.iter().take(NAMED.saturating_sub(places.len()));
+            places.extend(new.cloned());
+        }
+    }
+    if concerned.len() < 2 * found.len() + 2 {
+        return Vec::new();
+    }
+    codes.iter_mut().filter(|code| may(code)).for_each(|code| code.calls.clear());
+    let all = found.into_iter().filter_map(|((parameter, program), (letter, programs, places))| {
+        let meaning = format!(
+            "number of the {letter} code that calls O{program}, 0 if none does; the code that does needs no line under [codes]"
+        );
+        let section = setting(source, parameter)?;
+        Some(AskedSetting { meaning, ..asked(section, parameter, programs.len(), places) })
+    });
+    all.collect()
 }
 
 /// The number in the name of a program.

@@ -18,6 +18,9 @@ pub struct AskedCode {
     pub code: String,
     /// How many programs have it.
     pub programs: usize,
+    /// These, by their places in the library.
+    #[serde(skip)]
+    pub of: BTreeSet<usize>,
     /// How many of them are refused for nothing else.
     pub frees: usize,
     /// The first places, as `file:line`.
@@ -103,6 +106,7 @@ pub(super) fn asked(
         }
         AskedCode {
             programs: all.iter().map(|(at, _)| at).collect::<BTreeSet<_>>().len(),
+            of: all.iter().map(|(at, _)| *at).collect(),
             frees: frees.get(&code).copied().unwrap_or_default(),
             comment: most(all.iter().filter_map(|one| text(one)?.comment.clone())),
             block: all.first().and_then(text).map(|beside| beside.block.clone()).unwrap_or_default(),

@@ -19,7 +19,7 @@ pub(super) fn asked(places: &Places<'_>, controls: [&Control; 2], module: &Modul
     let sides = [Side::Source, Side::Target].into_iter().zip(controls).zip(settings);
     let open = sides.filter(|((_, control), _)| !control.is_said_double());
     let asked = open.filter_map(|((side, control), setting)| {
-        let (section, name, _) = setting?;
+        let (section, name, double) = setting?;
         let row = control.setting_row(&match section {
             "parameters" => format!("parameter.{name}"),
             _ => format!("setting.{name}"),
@@ -30,11 +30,13 @@ pub(super) fn asked(places: &Places<'_>, controls: [&Control; 2], module: &Modul
             side,
             section,
             name: name.to_owned(),
-            likely: None,
+            // Nobody reads it off a page of the machine.
+            as_fact: true,
+            likely: Some(double.to_owned()),
             wanted: Vec::new(),
             values: row.values.clone(),
             default: None,
-            meaning: row.meaning.clone(),
+            meaning: format!("it calculates with about fifteen digits ({})", row.meaning),
             programs: found.len(),
             places: found.iter().take(NAMED).map(|(file, span)| places.at(*file, *span)).collect(),
         })

@@ -5,12 +5,12 @@
 //! what is left of both, and puts its own in.
 
 use super::keys::{needed_by, setting_of};
-use super::machine::{lathe, with_machine};
+use super::machine::{begun, code_system, with_machine};
 use super::start::lines as lines_of_start;
 use super::unseen;
 use super::words::with_words;
 use super::{AskedSetting, AskedStart, AskedWord, Survey};
-use crate::dialect::{Control, Profile, Settled, Side};
+use crate::dialect::{CODE_SYSTEM, Control, Profile, Settled, Side};
 use crate::report::{Fact, Questions};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -34,18 +34,25 @@ pub struct Unfit(String);
 /// If putting the questions in would change what the profile says.
 pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<String, Unfit> {
     let control = survey.controls[usize::from(side == Side::Target)];
-    let mut text = old.map_or_else(|| format!("dialect = \"{}\"\n", control.name()), without_questions);
+    let mut text = old.map_or_else(|| begun(survey, side, control), without_questions);
     if !text.ends_with('\n') {
         text.push('\n');
     }
     let before = read(old.unwrap_or(&text))?;
-    let mut asked = survey.with_questions(|questions| lines(questions, control));
-    for (section, later) in survey.with_later(|questions| lines(questions, control)) {
-        asked.entry(section).or_default().push_str(&later);
-    }
+    let mut asked = survey.with_all(|questions| lines(questions, control));
+    let left = super::families::left(survey, side, control);
     for setting in survey.settings.iter().filter(|setting| setting.side == side) {
+        if left.contains(&setting.name.as_str()) || super::families::is_answered(setting, control, &asked) {
+            continue;
+        }
+        if let Some(fact) = setting.fact() {
+            let (what, about) = (short(&plain(&setting.meaning)), counted(setting.programs, &setting.places));
+            let _ =
+                writeln!(asked.entry(unseen::SECTION).or_default(), "{ASKS} \"{fact}\", # {what} ({about})");
+            continue;
+        }
         let lines = asked.entry(setting.section).or_default();
-        let line = line_of(setting, control.profile());
+        let line = super::families::or_each(line_of(setting, control.profile()), setting, &left);
         let names = [format!("{ASKS} {} = ", setting.name), format!("{ASKS} \"{}\" = ", setting.name)];
         if !names.iter().any(|name| lines.contains(name)) {
             lines.push_str(&line);
@@ -58,11 +65,10 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     if let Some(lines) = asked.remove(unseen::SECTION) {
         asked.insert(unseen::SECTION, unseen::together(&lines));
     }
-    let lathe = lathe(survey, side);
-    if let Some((system, of)) = lathe.as_ref().and_then(|(_, system)| system.as_ref()) {
+    if let Some(line) = code_system(survey, side, old) {
         let lines = asked.entry("settings").or_default();
-        if !lines.contains(&format!("{ASKS} gcode_system = ")) {
-            lines.insert_str(0, &format!("{ASKS} gcode_system = \"{system}\" # {of}\n"));
+        if !lines.contains(&format!("{ASKS} {CODE_SYSTEM} = ")) {
+            lines.insert_str(0, &line);
         }
     }
     let start = if side == Side::Source { &survey.start } else { &survey.start_of_target };
@@ -81,12 +87,10 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     if !codes.is_empty() {
         text = inserted(&text, super::site_rows::SECTION, &codes)?;
     }
-    let point = survey.with_questions(|questions| point(questions, control));
-    let point = point.or_else(|| survey.with_later(|questions| self::point(questions, control)));
-    let axes = super::variables::axes_line(survey, control);
+    let point = survey.with_all(|questions| point(questions, control));
     let unit =
         unit.first().map_or(String::new(), |unit| format!(" ({})", counted(unit.programs, &unit.places)));
-    text = with_machine(&text, control.profile(), side, (lathe.map(|(line, _)| line), point), (&unit, &axes));
+    text = with_machine(&text, (survey, side, control), point, &unit);
     let words: Vec<&AskedWord> = survey.words.iter().filter(|asked| asked.side == side).collect();
     text = with_words(&text, &words, (ASKS, TELLS));
     text = match side {
@@ -337,7 +341,10 @@ mod tests {
     #[test]
     fn what_the_profile_says_is_no_key_again() {
         let text = filled_for(PROGRAM, Some("dialect = \"fanuc\"\naxes = [\"X\", \"Y\", \"Z\"]\n"));
-        assert!(!text.contains("#? axes") && text.contains("#? units"), "{text}");
+        assert!(!text.contains("#? axes") && !text.contains("#? title"), "{text}");
+        let bare = "O1\nG90 G54 G17 G94 G0 X1. Y1.\nM30\n";
+        assert!(filled_for(bare, None).contains("#? units"));
+        assert!(!filled_for(&bare.replace("G90", "G21 G90"), None).contains("#? units"));
     }
 
     #[test]

@@ -32,6 +32,9 @@ pub struct AskedSetting {
     /// What it is if the programs are right, where the machine may have any value: never written as an answer.
     #[serde(skip)]
     pub likely: Option<String>,
+    /// True for one that is confirmed with other facts, as its value is known but for a person's word.
+    #[serde(skip)]
+    pub as_fact: bool,
     /// What it is.
     pub meaning: String,
     /// How many programs wait for it.
@@ -41,6 +44,12 @@ pub struct AskedSetting {
 }
 
 impl AskedSetting {
+    /// The fact that a profile confirms, `parameter.6050=100`; none if it is a line of its own.
+    pub(super) fn fact(&self) -> Option<String> {
+        let stem = if self.section == "parameters" { "parameter." } else { "setting." };
+        self.as_fact.then(|| format!("{stem}{}={}", self.name, self.usual()))
+    }
+
     /// An answer that a machine might give: what programs show, what it has if nobody changed it, or the first value.
     pub fn usual(&self) -> String {
         let first = self.likely.as_ref().or(self.default.as_ref()).or_else(|| self.values.first());
@@ -119,6 +128,7 @@ pub(super) fn asked(
             name: short.to_owned(),
             values,
             wanted,
+            as_fact: false,
             likely: found.likely.or(small),
             default: row
                 .and_then(|row| row.default.clone())

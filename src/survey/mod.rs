@@ -9,11 +9,13 @@ mod callers;
 mod codes;
 mod digits;
 mod far_places;
+mod families;
 mod filled;
 mod json;
 mod kept;
 mod keys;
 mod machine;
+mod needs;
 mod programs;
 mod shape;
 mod signals;
@@ -84,6 +86,8 @@ pub struct Survey<'a> {
     further_axes: Vec<Role>,
     /// The places in machine coordinates that its programs name, each with how many of them do.
     far_places: Vec<(String, usize)>,
+    /// What else they show of their machine.
+    needs: needs::Needs,
     /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
@@ -129,8 +133,9 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let places = Places::new(inputs);
     let shape = Shape::of(inputs, &places, &library);
     let mut start = start::asked(&places, source, &library.module);
-    let mut start_of_target = target
-        .map_or_else(Vec::new, |target| start::asked_of_target(&places, (source, target), &library.module));
+    let (mut start_of_target, unit_there) = target.map_or_else(Default::default, |target| {
+        start::asked_of_target(&places, (source, target), &library.module)
+    });
     if let Some(target) = target {
         // A profile that says anything of the start is taken to say all of it.
         let no_length = |of: [&Control; 2]| start::no_length(&places, of, &library.module);
@@ -138,6 +143,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         start_of_target.extend(start_of_target.is_empty().then(|| no_length([target, source])).flatten());
     }
     let further_axes = variables::further_axes(source, &library.module);
+    let needs = needs::Needs::of(&library.module, unit_there);
     let digits =
         target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
     let far_places = target.map_or_else(Vec::new, |target| far_places::named(target, &library.module));
@@ -157,6 +163,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     }
     let controls = [source, target.unwrap_or(source)];
     let mut settings = keys::asked(&places, controls, &conversion.programs);
+    settings.extend(callers::by_parameter(&mut codes, source));
     settings.extend(digits);
     settings.extend(speeds);
     let words = words::asked(&places, &conversion.programs);
@@ -185,6 +192,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         variables,
         further_axes,
         far_places,
+        needs,
         rest: conversion,
         then: Vec::new(),
         now,
@@ -219,8 +227,10 @@ impl Survey<'_> {
         self.stays = reasons(&best.programs);
         let known = self.asked_so_far();
         let codes = codes::asked(self.inputs, places, self.controls[0], &best.programs).into_iter();
-        let codes: Vec<AskedCode> =
+        let mut codes: Vec<AskedCode> =
             codes.filter(|new| !self.codes.iter().any(|old| old.code == new.code)).collect();
+        let is_asked = |parameter: u32| self.settings.iter().any(|asked| asked.name == parameter.to_string());
+        codes.iter_mut().for_each(|code| code.calls.retain(|call| !is_asked(call.parameter)));
         self.codes.extend(codes);
         let asked = keys::asked(places, self.controls, &best.programs);
         let is_known =
@@ -276,6 +286,16 @@ impl Survey<'_> {
         later.open.clear();
         later.notes = 0;
         look(&later)
+    }
+
+    /// What it asks of the machines now and once that is answered, together: a profile has one line for it.
+    pub(super) fn with_all<T>(&self, look: impl FnOnce(&Questions<'_>) -> T) -> T {
+        let parts: Vec<Part<'_>> =
+            std::iter::once(&self.rest).chain(&self.then).map(|made| self.part(made)).collect();
+        let mut questions = Questions::single(&parts);
+        self.without_unit(&mut questions);
+        questions.group();
+        look(&questions)
     }
 
     /// Takes out the question of the source's unit where it stands among what programs take from the machine, and what hangs on its

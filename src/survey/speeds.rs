@@ -43,6 +43,7 @@ pub(super) fn asked(places: &Places<'_>, target: &Control, module: &Module) -> O
         side: Side::Target,
         section: SECTION,
         name: LIMIT.to_owned(),
+        as_fact: false,
         likely: None,
         wanted: Vec::new(),
         values: Vec::new(),

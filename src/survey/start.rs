@@ -139,19 +139,21 @@ pub(super) fn asked(places: &Places<'_>, source: &Control, module: &Module) -> V
     open(places, source, module, &rests_on(module))
 }
 
-/// The modes that the profile of the target does not say, of programs at whose heads no code can be written.
+/// The modes that the profile of the target does not say, of programs at whose heads no code can be written; and whether such programs
+/// rest on its unit.
 pub(super) fn asked_of_target(
     places: &Places<'_>,
     (source, target): (&Control, &Control),
     module: &Module,
-) -> Vec<AskedStart> {
+) -> (Vec<AskedStart>, bool) {
     let mut rests = rests_unwritten(module);
+    let unit = rests.iter().any(|rests| rests.contains(&Group::Units));
     // The unit is told where `units` is, and where holes end by each cycle, if the source has no codes for it.
     let told = |group: &Group| {
         *group == Group::Units || *group == Group::ReturnPlane && codes(source, *group).is_empty()
     };
     rests.iter_mut().for_each(|rests| rests.retain(|group| !told(group)));
-    open(places, target, module, &rests)
+    (open(places, target, module, &rests), unit)
 }
 
 /// That no tool length is in force when programs begin. It is asked of the machine whose code that ends a length moves the

@@ -71,32 +71,65 @@ pub(super) fn lines(survey: &Survey<'_>) -> String {
     }
     for told in [
         "Which codes of this machine do what these of the source do: its page of M codes says it. Write each between the quotes that",
-        "stand first. Where it has none, leave the line out, and write do = \"omit\", \"stop\" or \"alarm\" at the source's code:",
+        "stand first, two in their order. Where it has none, leave the line out, and write do = \"omit\", \"stop\" or \"alarm\" at the source's code:",
         "docs/builders-codes.md.",
     ] {
         let _ = writeln!(text, "{TELLS} {told}");
     }
-    for asked in &survey.there {
-        let (does, meaning, words) = match (asked.op, site(survey.controls[0], &asked.name)) {
-            (Some(op), _) => {
-                let meaning = op.meaning().trim().trim_end_matches('.');
-                (format!("op = \"{op}\""), meaning, Vec::new())
+    let rows: Vec<Row> = survey.there.iter().filter_map(|asked| row(survey, asked)).collect();
+    let mut paired = vec![false; rows.len()];
+    for (at, one) in rows.iter().enumerate() {
+        if paired[at] {
+            continue;
+        }
+        let two = (at + 1..rows.len()).find(|other| !paired[*other] && is_pair(one, &rows[*other]));
+        let line = match two.map(|other| (other, &rows[other])) {
+            Some((other, two)) => {
+                paired[other] = true;
+                let does = format!("{} = \"{}, {}\"", one.key, one.name, two.name);
+                format!("{} = {{ {does} }} # {}; {}", key(", "), plain(&one.about), plain(&two.about))
             }
-            (None, Some(site)) => {
-                let words = site.words.iter().map(|(letter, name)| format!("{letter} = \"{name}\""));
-                (format!("name = \"{}\"", asked.name), site.text.as_str(), words.collect())
+            None => {
+                let does = format!("{} = \"{}\"", one.key, one.name);
+                let keys = [Some(does), said(&one.meaning), in_braces(&one.words)];
+                let keys: Vec<String> = keys.into_iter().flatten().collect();
+                format!("{} = {{ {} }} # {}", key(""), keys.join(", "), plain(&one.about))
             }
-            (None, None) => continue,
         };
-        let by = if words.is_empty() { "" } else { "; its words by the letters of its code here" };
-        let keys = [Some(does), said(meaning), in_braces(&words)];
-        let keys: Vec<String> = keys.into_iter().flatten().collect();
-        let programs =
-            if asked.programs == 1 { String::new() } else { format!("{} programs: ", asked.programs) };
-        let about = format!("{} of the source; {programs}{}{by}", asked.code, asked.places.join(", "));
-        let _ = writeln!(text, "{ASKS} {} = {{ {} }} # {}", key(""), keys.join(", "), plain(&about));
+        let _ = writeln!(text, "{ASKS} {line}");
     }
     text
+}
+
+/// A line of the target's profile, before it is written.
+struct Row {
+    key: &'static str,
+    name: String,
+    meaning: String,
+    words: Vec<String>,
+    about: String,
+}
+
+fn row(survey: &Survey<'_>, asked: &AskedThere) -> Option<Row> {
+    let (key, meaning, words) = match (asked.op, site(survey.controls[0], &asked.name)) {
+        (Some(op), _) => ("op", op.meaning().trim().trim_end_matches('.').to_owned(), Vec::new()),
+        (None, Some(site)) => {
+            let words = site.words.iter().map(|(letter, name)| format!("{letter} = \"{name}\""));
+            ("name", site.text.clone(), words.collect())
+        }
+        (None, None) => return None,
+    };
+    let by = if words.is_empty() { "" } else { "; its words by the letters of its code here" };
+    let programs = if asked.programs == 1 { String::new() } else { format!("{} programs: ", asked.programs) };
+    let about = format!("{} of the source; {programs}{}{by}", asked.code, asked.places.join(", "));
+    Some(Row { key, name: asked.name.clone(), meaning, words, about })
+}
+
+/// True for two of one thing, as on and off: their names differ in the last part alone.
+fn is_pair(one: &Row, two: &Row) -> bool {
+    let thing = |row: &Row| row.name.rsplit_once('.').map(|(thing, _)| thing.to_owned());
+    let plain = one.words.is_empty() && two.words.is_empty();
+    plain && one.key == two.key && thing(one).is_some() && thing(one) == thing(two)
 }
 
 #[cfg(test)]
@@ -155,12 +188,9 @@ mod tests {
             made.stays
         );
         let text = filled(&made, Side::Target, Some(plain)).unwrap();
-        let line = "#? \"\" = { op = \"coolant.through.on\", text = \"Coolant through the spindle on\" } # M88 of the source; a.nc:3";
+        let line = "#? \", \" = { op = \"coolant.through.off, coolant.through.on\" } # M89 of the source; a.nc:4; M88 of the source; a.nc:3";
         assert!(text.lines().any(|found| found == line), "{text}");
-        let answered =
-            text.replace("#? \"\" = { op = \"coolant.through.on\"", "M51 = { op = \"coolant.through.on\"");
-        let answered = answered
-            .replace("#? \"\" = { op = \"coolant.through.off\"", "M59 = { op = \"coolant.through.off\"");
+        let answered = text.replace("#? \", \" = {", "\"M59, M51\" = {");
         let there = target(&answered);
         assert_eq!(survey(&inputs, &source, Some(&there)).now.refused, 0);
     }

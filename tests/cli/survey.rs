@@ -254,8 +254,8 @@ fn what_clamps_an_axis_for_a_hole_is_asked_with_what_lets_it_go() {
         "{survey}"
     );
     let asked = shop.read("a.toml");
-    assert!(asked.contains("\n#? M89 = { target = \"\" } # a.nc:7, a.nc:8; as in: "), "{asked}");
-    assert!(asked.contains("\n#? M90 = { target = \"\" } # a.nc:7, a.nc:8; goes with: "), "{asked}");
+    let line = "\n#? \"M89, M90\" = { target = \", \" } # a.nc:7, a.nc:8; as in: ";
+    assert!(asked.contains(line) && asked.contains("; a.nc:7, a.nc:8; goes with: "), "{asked}");
     let site = |code: &str, target: &str| {
         format!("[[site]]\ncode = \"{code}\"\ntext = \"clamp\"\ntarget = \"{target}\"\n")
     };
@@ -514,8 +514,7 @@ fn the_unit_is_asked_once_and_a_setting_by_its_name() {
     assert!(!run.out.contains("\"code:G52\""), "{}", run.out);
     shop.run(&format!("{line} --write m.toml"));
     let profile = shop.read("m.toml");
-    let units =
-        "#? units = \"inch\" or \"metric\" # what its programs are in where no code says so (o1.nc:1)\n";
+    let units = "#? units = \"inch\" or \"metric\" # what its programs are in where no code says so, and its settings (o1.nc:1)\n";
     assert!(profile.contains(units) && !profile.contains("G20|G21"), "{profile}");
     // Answers to both leave nothing to ask of the source.
     let units = profile.replace(units, "units = \"metric\"\n");
@@ -579,8 +578,8 @@ fn a_code_that_may_call_a_program_of_the_library_is_asked_for_it() {
     for line in [
         "#? G100 = { calls = 9010, arguments = true } # o1.nc:4; as in: G100 X1.; it calls O9010 if parameter 6050 is 100; else \
          target = '' in place of calls",
-        "#? M86 = { calls = 9021, arguments = true } # o1.nc:5; as in: M86 T2; it calls O9021 if parameter 6081 is 86; else \
-         target = '' in place of calls",
+        "#: \"parameter.6081=86\": comments of O9021 say that M86 calls it (o1.nc:5)",
+        "#? \"parameter.6081=86\",",
         "#? M51 = { target = \"\" } # o1.nc:6; as in: M51; or calls = 9025, arguments = true in place of target: it calls O9025 \
          if parameter 6085 is 51",
         "#? axes = [\"X\", \"Y\", \"Z\", \"B\"] # in the order of the control's axis numbers",
