@@ -48,6 +48,7 @@ pub(super) fn make(
     Begun { entry, goes_on, continues, marks }: Begun<'_>,
 ) -> Made {
     super::marks::drop_old(&mut module);
+    super::callers_modes::settle(&mut found, &module, &entry);
     let count = module.programs.len();
     let short = |program: &Program| Some(program.name.as_ref()?.short().into_owned());
     let names: Vec<Option<String>> = module.programs.iter().map(short).collect();

@@ -6,6 +6,7 @@
 
 mod accepted;
 mod callees;
+mod callers_modes;
 mod chunks;
 mod code_system;
 mod compile;

@@ -19,6 +19,10 @@ use crate::ir::Relation;
 use crate::syntax::{BinaryOp, Expr, ExprKind, Item, ItemKind};
 use smallvec::SmallVec;
 
+/// What is told of a program that moves before it names a motion mode; the library may know its callers.
+pub const CALLERS_MODE: &str =
+    "this moves in the caller's motion mode; if that is an arc mode, the conversion moves straight";
+
 /// The value of a constant: a number, signed or in brackets or not. One that is too
 /// large for any control is none.
 pub fn constant(expr: &Expr) -> Option<f64> {

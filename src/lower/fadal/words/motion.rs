@@ -3,6 +3,7 @@
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Question};
+use crate::lower::common::CALLERS_MODE;
 use crate::lower::fadal::build::Lowering;
 use crate::lower::fadal::codes::{Codes, thousandths};
 use crate::syntax::Word;
@@ -91,9 +92,7 @@ impl<'b> Lowering<'b> {
                 return self.no_arc(span);
             }
             if self.state.motion.entry {
-                let message = "this moves in the caller's motion mode; if that is an arc mode, the conversion moves \
-                     straight";
-                self.once(Code::ModalAssumed, "entry", span, message.into());
+                self.once(Code::ModalAssumed, "entry", span, CALLERS_MODE.into());
             }
             if mixed && self.state.after_cycle {
                 return self.conflict(
