@@ -1,6 +1,6 @@
-//! Tool offsets that the target does not have.
+//! Tool offsets, and work offsets by a computed number, that the target does not have.
 //!
-//! Law: a word that names a tool offset names one that the target has, and a code that writes one too. Counter-example: `G43 H120 Z5.`
+//! Law: a word that names an offset names one that the target has, and a code that writes one too. Counter-example: `G43 H120 Z5.`
 //! for a control with 99 offsets. How many there are is the table's row, or `offsets` of the machine profile where the machine has less. Side condition: a
 //! variable holds numbers that its program gives it; what calls give is the matter of `argument_offsets`, and of what an
 //! operator gives nothing is known.
@@ -8,10 +8,11 @@
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, turret_parts};
-use crate::ir::analysis::{Assigned, Constant};
+use crate::ir::analysis::{Assigned, Constant, Ranges, Values};
 use crate::ir::{BlockId, Expr, Module, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
+use std::cell::LazyCell;
 
 /// The words that name an offset.
 pub(super) const NAMES: [Role; 2] = [Role::LengthOffset, Role::RadiusOffset];
@@ -24,6 +25,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 
 /// Refuses numbers past the last one.
 pub fn run(module: &Module, context: &mut Context<'_>) {
+    work_offsets(module, context);
     let Some(last) = last(context.target) else { return };
     let summaries = context.summaries(module);
     for (index, program) in module.programs.iter().enumerate() {
@@ -42,6 +44,42 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     let what = format!("this block names tool offset {number}, and the {title} has {last}");
                     let help = "give the tool an offset that the machine has; 'offsets' in its profile may say that it has less \
                                 than its table";
+                    let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
+                    context.add(index, found);
+                }
+            }
+        }
+    }
+}
+
+/// Refuses work offsets whose number is computed, where it is known to be one that the target has no code for.
+fn work_offsets(module: &Module, context: &mut Context<'_>) {
+    let summaries = context.summaries(module);
+    let target = context.target;
+    let lacks = |number: f64| {
+        target.code_for(Op::SelectWork, &[(Role::WorkOffset, number)].into_iter().collect()).is_none()
+    };
+    for (index, program) in module.programs.iter().enumerate() {
+        let ranges = LazyCell::new(|| Ranges::of_whole_words(program, &summaries));
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                let number = stmt.kind.nc().filter(|nc| nc.has(Op::SelectWork));
+                let number = number.and_then(|nc| nc.word(Role::WorkOffset));
+                let Some(number) = number.filter(|number| number.constant().is_none()) else { continue };
+                let is_past = match ranges.at(id, at, number) {
+                    Values::Few(numbers) => numbers.into_iter().any(lacks),
+                    // Numbers are without gaps from the first additional one on.
+                    Values::Between { low, high, .. } => {
+                        low > 0.0 && high.is_finite() && lacks(low) && lacks(high)
+                    }
+                };
+                if is_past {
+                    let title = &target.dialect().title;
+                    let what = format!(
+                        "the number of the work offset is computed, and is one that the {title} does not have"
+                    );
+                    let help =
+                        "'work_offsets' of its machine profile says how many it has: give the parts others";
                     let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
                     context.add(index, found);
                 }

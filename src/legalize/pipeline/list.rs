@@ -381,12 +381,8 @@ const CODES: &[Pass] = &[
             "state",
             "cycle-words",
         ]),
-    Pass::reports(
-        "offset-numbers",
-        "refuses tool offsets that the target does not have",
-        offset_numbers::run,
-    )
-    .when(offset_numbers::concerns),
+    Pass::reports("offset-numbers", "refuses offsets that the target does not have", offset_numbers::run)
+        .when(|c, context| c.role(Role::WorkOffset) || offset_numbers::concerns(c, context)),
     Pass::reports(
         "forbidden",
         "refuses codes that the target takes for a fault under others",
