@@ -242,7 +242,10 @@ fn live_tap(hole: &mut Hole<'_>) -> Result<Op, Refused> {
             }
             hole.asked.push((STOPPED, STOPPED_HELP, op, true));
         }
-        hole.asked.push((LIVE, LIVE_HELP, op, false));
+        hole.asked.push(match hole.turning.rigid {
+            true => (RIGID, RIGID_HELP, op, true),
+            false => (LIVE, LIVE_HELP, op, false),
+        });
     }
     Ok(op)
 }
@@ -288,6 +291,9 @@ const STOPPED: &str = "all programs of the library that call this one stop the s
 const STOPPED_HELP: &str = "if something else calls it, make sure that the spindle stands there too";
 const LIVE: &str = "this tap becomes the target's cycle for a live tool, which turns the tool to the right by itself, at the last S";
 const LIVE_HELP: &str = "make sure that the thread is a right-hand one, and that S is the speed of the tool";
+const RIGID: &str = "this rigid tap becomes the target's cycle for a live tool, which turns the tool to the right by itself, at the last S";
+const RIGID_HELP: &str =
+    "make sure that the rigid taps of the source's machine turn the tool to the right too";
 const MAIN: &str = "the target taps on the centre line with its main spindle, which it starts itself";
 const MAIN_HELP: &str = "if a live tool taps here, write the target's code for that by hand";
 const REPEAT: &str = "a drilling cycle with a count of repeats that is computed, or is none of 1 to 200: the target has no repeats";

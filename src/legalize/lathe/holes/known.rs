@@ -14,6 +14,8 @@ pub(super) struct Turning {
     pub by_turn: bool,
     /// True where the spindle is known to stand, or nothing of the library ever turns it.
     pub stands: bool,
+    /// True where a code before it made the tap rigid: which way it turns is the control's, and no code's before it.
+    pub rigid: bool,
 }
 
 /// What is known of the cycle in force.

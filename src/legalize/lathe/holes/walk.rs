@@ -5,7 +5,7 @@ use super::called_waits::Followed;
 use super::known::{Cycle, Turning};
 use super::levels::Levels;
 use super::pecks::Peck;
-use super::rigid::drop_rigid;
+use super::rigid::{drilling, drop_rigid, rigid_after};
 use super::waits::{Waits, other_waits};
 use super::{by_place, by_step, drills, tells_all};
 use crate::assume::Predicate;
@@ -138,6 +138,7 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             speed: None,
             is_said: false,
             stands: false,
+            rigid: false,
             waits: waits.clone(),
             is_ended: false,
             open: Vec::new(),
@@ -151,14 +152,16 @@ pub(super) fn run(module: &mut Module, context: &mut Context<'_>, by_steps: bool
             if !straight {
                 walk.cycle = Cycle::default();
                 walk.place = places.get(at).copied().unwrap_or(begin);
-                (walk.speed, walk.is_said, walk.stands) = (None, false, false);
+                (walk.speed, walk.is_said, walk.stands, walk.rigid) = (None, false, false, false);
             }
             if !straight || over.is_some() {
                 walk.waits.come_in(told.get(at).copied().unwrap_or_default());
             }
+            let drilling = drilling(block);
             let mut out = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::take(&mut block.stmts) {
                 let span = stmt.site.span;
+                walk.rigid = rigid_after(walk.rigid, &stmt, &drilling);
                 if !by_steps {
                     // A speed that is said again would say of a spindle that stands how fast it turns.
                     let again = walk.stands && state.op(Group::Spindle).is_none();
@@ -219,6 +222,8 @@ struct Walk {
     is_said: bool,
     /// True where the spindle that turns the part was stopped, and taps of live tools alone came since.
     stands: bool,
+    /// True where a code made the next taps rigid, with their speed.
+    rigid: bool,
     waits: Waits,
     /// True where a move after a hole ended the target's cycle.
     is_ended: bool,
@@ -307,6 +312,7 @@ impl Walk {
             is_said: self.is_said && !surface,
             by_turn: state.op(Group::FeedMode) == Some(Op::FeedPerTurn),
             stands: all.stands || stands,
+            rigid: self.rigid,
         };
         if before.is_none() {
             // If one is in force, it began where the tool stands on every way, as its holes end there.
