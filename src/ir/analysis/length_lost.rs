@@ -14,6 +14,9 @@ pub struct LengthLost {
     /// True where every way here went home, or in machine coordinates, along the axis of the length, whatever length was in
     /// force.
     pub is_home: bool,
+    /// True where some way here named a length, and has neither ended it nor gone home, or in machine coordinates, along its
+    /// axis since.
+    pub is_held: bool,
 }
 
 /// On which of the ways to a place something happens.
@@ -43,6 +46,7 @@ impl LengthLost {
             by_machine_move: join(self.by_machine_move, other.by_machine_move),
             by_change: join(self.by_change, other.by_change),
             is_home: self.is_home && other.is_home,
+            is_held: self.is_held || other.is_held,
         };
         std::mem::replace(self, joined) != joined
     }

@@ -104,6 +104,8 @@ impl Modal {
         let mut unknown = state.clone();
         unknown.may_be_cancelled = false;
         unknown.forget();
+        // What runs there may name a length as the library does.
+        unknown.length_lost.is_held |= state.length_named;
         unknown.tool_word = state.tool_word.after_unknown();
         unknown
     }
@@ -245,12 +247,13 @@ impl Modal {
             *setting = Setting::Known(op, row.constant().filter(|row| *row >= 0.0).map(|row| row as u32));
         }
         if row.is_some() || nc.ops().any(|op| op.group() == Group::LengthComp) {
-            self.length_lost = LengthLost::default();
+            self.length_lost = LengthLost { is_held: !nc.has(Op::LengthOff), ..LengthLost::default() };
         }
         self.length_named |= row.is_some() || nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
         let leaves = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce));
-        self.length_lost.is_home |=
-            leaves && nc.word(Role::Z).is_some_and(|value| value.constant().is_some());
+        if leaves && nc.word(Role::Z).is_some_and(|value| value.constant().is_some()) {
+            (self.length_lost.is_home, self.length_lost.is_held) = (true, false);
+        }
         let ways = match self.of(Group::LengthComp) {
             Setting::Known(Op::LengthPlus | Op::LengthMinus, _) => Ways::Every,
             Setting::Unknown if self.length_named => Ways::Some,

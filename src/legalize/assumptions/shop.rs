@@ -105,7 +105,7 @@ pub(in crate::legalize) fn moves_by_code(nc: &Nc, before: &Modal) -> bool {
     let begins = nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
     let in_force = before.of(Group::LengthComp);
     let is_off = matches!(in_force, Setting::Known(Op::LengthOff, _));
-    let may_be = !is_off && before.names_length() && !gone;
+    let may_be = !is_off && lost.is_held && !gone;
     match row {
         _ if nc.has(Op::LengthOff) => may_be,
         Some(Some(0)) => may_be,
