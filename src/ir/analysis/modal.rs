@@ -81,7 +81,7 @@ impl Modal {
             length_named: false,
             length_word: false,
             feed: Feed::Unknown,
-            tool_word: ToolWord::Unknown,
+            tool_word: ToolWord::Begun,
             turret_none: false,
             named: Named::default(),
             calls: Some(Vec::new()),

@@ -7,8 +7,10 @@ use crate::ir::{BinOp, Expr, Nc, NcItem};
 /// What the last tool word is to the tool in the spindle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ToolWord {
-    /// Not known: no tool was named or changed on some way here.
+    /// What it was when the run began, on some way here: no tool was named or changed since.
     #[default]
+    Begun,
+    /// Not known: something that the library does not have ran, or a computed code, on some way here.
     Unknown,
     /// The tool in the spindle.
     Changed,
@@ -40,8 +42,9 @@ impl ToolWord {
     pub fn join(self, other: Self) -> Self {
         match (self, other) {
             (ToolWord::Waits, _) | (_, ToolWord::Waits) => ToolWord::Waits,
+            (ToolWord::Unknown, _) | (_, ToolWord::Unknown) => ToolWord::Unknown,
+            (ToolWord::Begun, _) | (_, ToolWord::Begun) => ToolWord::Begun,
             (ToolWord::Changed, ToolWord::Changed) => ToolWord::Changed,
-            _ => ToolWord::Unknown,
         }
     }
 }

@@ -7,6 +7,7 @@ pub(in crate::legalize) mod external;
 pub(in crate::legalize) mod folded_shifts;
 pub(in crate::legalize) mod kept_length;
 pub(in crate::legalize) mod kept_radius;
+pub(in crate::legalize) mod known_tools;
 pub(in crate::legalize) mod later_lengths;
 pub(in crate::legalize) mod left_shifts;
 pub(in crate::legalize) mod length_radius;

@@ -3,6 +3,7 @@
 use super::Pass;
 use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LASTING_PECKS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
+use crate::canon::Op;
 use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop, top_speed};
 use crate::legalize::calls::parts;
 use crate::legalize::cycles::{
@@ -13,7 +14,7 @@ use crate::legalize::features::Feature;
 use crate::legalize::lathe::{contour_numbers, other_kind};
 use crate::legalize::layout::skip_runs;
 use crate::legalize::moves::{bare_feeds, first_increments};
-use crate::legalize::offsets::{arc_starts, missing_length};
+use crate::legalize::offsets::{arc_starts, known_tools, missing_length};
 use crate::legalize::variables::last_words;
 
 /// Before what is read is folded away.
@@ -33,6 +34,13 @@ pub(super) const READ: &[Pass] = &[
         skip_runs::together,
     )
     .when(|c, _| c.has(Feature::Skip))
+    .changes_flow(),
+    Pass::edits(
+        "known-tools",
+        "comparisons with the tool in the spindle that tool words are go, where it is known",
+        known_tools::run,
+    )
+    .when(|c, _| c.has(Feature::System) && c.op(Op::ToolChange))
     .changes_flow(),
     Pass::edits(
         "last-words",

@@ -246,8 +246,14 @@ impl Proposals {
     fn places(&self, scenario: &mut Scenario, count: usize) {
         for ((state, subscripts), values) in &self.inputs.cells {
             let Some(value) = values.get(count / 2 % values.len().max(1)) else { continue };
+            let plain = *value;
             let value = value * if count.is_multiple_of(2) { 1.0 } else { 25.4 };
             match (state, subscripts.as_slice()) {
+                // The tool in the spindle, or the last one called, which a condition asks for.
+                (Sys::ActiveTool, []) | (Sys::Address, [ADDRESS_T]) => {
+                    let is_one = plain.fract() == 0.0 && (1.0..=99.0).contains(&plain);
+                    scenario.tool = if is_one { plain as u32 } else { scenario.tool };
+                }
                 (Sys::WorkOffset, [number, axis]) => {
                     let axes = scenario.work_offsets.entry(*number).or_default();
                     if let Some(own) = axes.get_mut((*axis as usize).wrapping_sub(1)) {
@@ -321,6 +327,9 @@ const SMALLER: f64 = 40.0;
 
 /// Millimetres that are a whole number of least increments in inches too: 0.005 inch.
 const STEP: f64 = 0.127;
+
+/// The number of the letter T among the letters of words.
+const ADDRESS_T: u32 = 20;
 
 /// So many of them, the nearest whole number.
 fn steps(count: f64) -> f64 {

@@ -12,7 +12,7 @@ use crate::ir::analysis::ModalFacts;
 use crate::ir::analysis::tool_word::ToolWord;
 use crate::ir::{BlockId, Cond, Expr, Module, Nc, NcItem, Program, Relation, TermKind};
 use crate::legalize::Context;
-use crate::legalize::offsets::tool_word::ADDRESS_T;
+use crate::legalize::offsets::tool_word::{ADDRESS_T, ends_waiting};
 
 /// Makes such changes plain ones.
 pub(super) fn run(module: &mut Module, facts: &ModalFacts, context: &mut Context<'_>) {
@@ -28,6 +28,7 @@ pub(super) fn run(module: &mut Module, facts: &ModalFacts, context: &mut Context
     if found.is_empty() {
         return;
     }
+    let waits = ends_waiting(module, facts);
     let title = &context.target.dialect().title;
     let what = format!(
         "the last T is compared, and {title} tells the tool in the spindle: when the program starts, the two must be the same tool"
@@ -40,9 +41,10 @@ pub(super) fn run(module: &mut Module, facts: &ModalFacts, context: &mut Context
         block.stmts.iter().for_each(|stmt| state.step(stmt));
         match state.tool_word {
             ToolWord::Waits if called => continue,
-            ToolWord::Unknown if called => {
-                let finding = Diagnostic::new(Code::Conditional, block.term.site.span, what.clone());
-                context.add_once(index, &what, finding);
+            begun @ (ToolWord::Begun | ToolWord::Unknown) if called => {
+                let told = Diagnostic::new(Code::Conditional, block.term.site.span, what.clone());
+                let told = if begun == ToolWord::Begun && !waits { told.asked_once() } else { told };
+                context.add_once(index, &format!("{what} {begun:?}"), told);
             }
             _ => {}
         }
