@@ -74,15 +74,17 @@ mod tests {
     /// How far the passes of a contour go back is left to the machine, or stated: never both.
     #[test]
     fn one_line_stands_for_the_settings_of_cycles() {
-        let text = "O1\nG21 G18 G99\nT0101\nG0 X50. Z2.\nG71 U2. R.5\nG71 P10 Q20 U.4 W.1 F.2\nN10 G0 X20.\nG1 Z-30.\nN20 X50.\nM30\n";
+        // Two values in one run, of which the machine has one.
+        let text = "O1\nG21 G18 G99\nT0101\nG0 X50. Z2.\nG75 R.5\nG75 X30. Z-20. P2000 Q3000 F.1\nG0 Z-30.\nG75 R.3\nG75 X30. Z-40. P2000 \
+                    Q3000 F.1\nG0 X60.\nM30\n";
         let source = "dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"\n[settings]\ngcode_system = \"A\"\n";
         let open = asked(text, source, LATHE, Side::Target);
         assert!(
-            !open.contains("#? 73 = ") && open.contains("or state each under [settings]: 73 = ..."),
+            !open.contains("#? 22 = ") && open.contains("or state each under [settings]: 22 = ..."),
             "{open}"
         );
-        let stated = asked(text, source, &format!("{LATHE}[settings]\n22 = 1\n"), Side::Target);
-        assert!(stated.contains("#? 73 = "), "{stated}");
+        let stated = asked(text, source, &format!("{LATHE}[settings]\n73 = 1\n"), Side::Target);
+        assert!(stated.contains("#? 22 = "), "{stated}");
     }
 
     const MILL: &str = "dialect = \"fanuc\"\nmachine = \"mill\"\nunits = \"metric\"\n";
@@ -113,10 +115,12 @@ mod tests {
         let target = "dialect = \"haas\"\nmachine = \"mill\"\nunits = \"metric\"\n";
         for (side, old) in [(Side::Source, MILL), (Side::Target, target)] {
             let asked = asked(text, MILL, target, side);
-            assert!(
-                asked.contains("#? \"arithmetic:double\",") && !asked.contains("6008.0 = \"0\" or"),
-                "{asked}"
-            );
+            let fact = match side {
+                Side::Source => "parameter.6008.0=0",
+                Side::Target => "setting.arithmetic=double",
+            };
+            assert!(asked.contains(&format!("#? \"{fact}\",")), "{asked}");
+            assert!(!asked.contains("#? 6008.0 =") && !asked.contains("#? arithmetic ="), "{asked}");
             let said = Control::from_profile(&asked.replace("#? \"", "\"")).unwrap();
             assert!(said.is_said_double(), "{old}");
         }
