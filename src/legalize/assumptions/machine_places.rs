@@ -4,14 +4,16 @@
 //! where the machine has its zero, how far it goes, and what stands on its table. The words are the same on the target, and the
 //! place is not. It is asked once of the target, whose profile may say where one lies. Side conditions: zero of an axis is the reference position, where both controls are
 //! of one family; of Z it is so on all. What is read from the machine (a position, an offset that was saved) is the target's own, and
-//! what a program compares it with is not, but for 0 and for what it read there too.
+//! what a program compares it with is not, but for 0 and for what it read there too. A way by increments from the reference position
+//! leads to such a place too.
 //! Counter-example: `G53 X-300.`, which is past the end of a smaller machine.
 
+use super::from_home::{FromHome, Homes};
 use super::moved_places::At;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
-use crate::ir::{Cond, Expr, Module, Nc, NcItem, Place, StmtKind, TermKind, Var};
+use crate::ir::{Cond, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
@@ -23,7 +25,8 @@ const OFFSETS: Question = Question::WorkPlaces;
 
 /// True if a program may name such a place, between machines of which nobody says that they have the same ones.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let names = [Op::MachineOnce, Op::ShiftCancel, Op::WriteWork].iter().any(|op| features.op(*op));
+    let ops = [Op::MachineOnce, Op::ShiftCancel, Op::WriteWork, Op::ReferenceReturn, Op::Reference2];
+    let names = ops.iter().any(|op| features.op(*op));
     (names || features.has(Feature::System))
         && !context.source.is_same_machine(context.target)
         && (!context.source.places_there().is_empty()
@@ -44,6 +47,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut Context<'_>) {
     let numbers = Numbers::of(module);
     let read = read_places(module);
+    let homes = moves_from_home(module).then(|| Homes::of(module, facts));
     let answer = |question| context.target.behaviour(question).map(|row| row.value.clone());
     let [moves, offsets] = [MOVES, OFFSETS].map(answer);
     // Zero is where each machine has its home, as the shop says.
@@ -57,8 +61,15 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
         let cancels = stmts.any(|stmt| stmt.kind.has_op(Op::ShiftCancel));
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);
+            let mut home = homes.as_ref().map(|homes| homes.at(index, id));
             for (at, stmt) in block.stmts.iter().enumerate() {
                 state.step(stmt);
+                if let Some(home) = &mut home {
+                    if moves.as_deref() != Some("same") && steps_from(*home, stmt, &state, &numbers) {
+                        tell((index, stmt.site.span), (MOVES, moves.as_deref()), STEPPED, context);
+                    }
+                    home.step(stmt, &state);
+                }
                 if moved.contains(&(index, id, at)) {
                     continue;
                 }
@@ -91,8 +102,24 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
 
 const NAMED: &str = "this is a place in machine coordinates of the old machine: say in the target's profile where it lies on the new one \
                      (machine_places = [\"X-11. as X-300.\"])";
+const STEPPED: &str = "this way begins at the reference position and leads to a place in machine coordinates of the old machine: write the way \
+                       of the new one into the conversion";
 const COMPARED: &str = "a work offset or a machine position is compared with a number of the old machine: write the number of the new one into \
                         the conversion";
+
+/// True where a program goes home.
+fn moves_from_home(module: &Module) -> bool {
+    let mut stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let home = |op: Op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce);
+    stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.ops().any(home)))
+}
+
+/// True where a block moves an axis by an increment from the reference position; the increment is a number of the program.
+fn steps_from(home: FromHome, stmt: &Stmt, state: &Modal, numbers: &Numbers) -> bool {
+    stmt.kind
+        .nc()
+        .is_some_and(|nc| home.steps(nc, state).any(|(role, way)| numbers.is_place(Some(role), way, true)))
+}
 
 /// Tells of a place where the answer is that it is another one, and asks where there is none.
 fn tell(

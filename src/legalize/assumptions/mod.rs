@@ -4,6 +4,7 @@ pub(in crate::legalize) mod barred;
 pub(in crate::legalize) mod changes;
 pub(in crate::legalize) mod cutter_tables;
 pub(in crate::legalize) mod facts;
+mod from_home;
 pub(in crate::legalize) mod machine_places;
 mod mistakes;
 mod moved_places;

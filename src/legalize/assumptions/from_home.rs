@@ -1,0 +1,200 @@
+//! Increments from a reference position: places in machine coordinates by another name.
+//!
+//! A program that goes home and then moves by increments (`G91 G28 X0`, `G0 X-12.`) names a place that hangs on where the machine
+//! has its home and how far it goes, as a move in machine coordinates does. Over-approximates: an axis counts as placed from home
+//! where some way went there and named no absolute place of it since, calls of the library included. What a program outside the
+//! library, a computed call or a modal one leaves is not known, and counts as another place. Counter-example: a place that G92
+//! sets at home, from which absolute words then count.
+
+use crate::canon::{Group, Op, Role};
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, States, solve};
+use crate::ir::analysis::{Cfg, ModalFacts};
+use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::legalize::Modal;
+use crate::syntax::ProgramName;
+use std::collections::HashMap;
+
+/// The axes that may be placed from a reference position, by their numbers, as bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FromHome(u16);
+
+impl Lattice for FromHome {
+    fn join(&mut self, other: &Self) -> bool {
+        let before = *self;
+        self.0 |= other.0;
+        *self != before
+    }
+}
+
+impl FromHome {
+    /// The axes of a block that it moves by increments from there, by their words; `state` is what is in force in it.
+    pub fn steps<'n>(self, nc: &'n Nc, state: &Modal) -> impl Iterator<Item = (Role, &'n Expr)> {
+        let steps = state.op(Group::Distance) == Some(Op::Incremental);
+        let moves = nc.moves() && !goes_home(nc) && !nc.has(Op::MachineOnce);
+        nc.items.iter().filter_map(move |item| match item {
+            NcItem::Word(role, value)
+                if moves && (role.is_step() || steps) && self.0 & bit(*role).unwrap_or(0) != 0 =>
+            {
+                Some((*role, value))
+            }
+            _ => None,
+        })
+    }
+
+    /// Takes a statement's effect; `state` is what is in force in it.
+    pub fn step(&mut self, stmt: &Stmt, state: &Modal) {
+        let Some(nc) = stmt.kind.nc().filter(|nc| nc.names_axis() || goes_home(nc)) else { return };
+        let before = *self;
+        let words = || {
+            nc.items.iter().filter_map(|item| match item {
+                NcItem::Word(role, value) => bit(*role).map(|bit| (bit, *role, value)),
+                _ => None,
+            })
+        };
+        if state.may_call() {
+            self.0 = 0;
+        } else if goes_home(nc) {
+            let named = words().fold(0, |named, (bit, ..)| named | bit);
+            self.0 |= if named == 0 { u16::MAX } else { named };
+        } else if nc.moves() {
+            let once = nc.has(Op::MachineOnce);
+            let steps = !once && state.op(Group::Distance) != Some(Op::Absolute);
+            for (bit, role, value) in words() {
+                // Zero of the machine is its home; other places are asked of their own.
+                let home = once && value.constant() == Some(0.0);
+                if home {
+                    self.0 |= bit;
+                } else if !(role.is_step() || steps || value.may_be_vacant()) {
+                    self.0 &= !bit;
+                }
+            }
+        }
+        if stmt.site.skip.is_some() {
+            self.join(&before);
+        }
+    }
+}
+
+/// The bit of an axis.
+fn bit(role: Role) -> Option<u16> {
+    let number = role.is_axis().then(|| role.axis_number())??;
+    1u16.checked_shl(number)
+}
+
+fn goes_home(nc: &Nc) -> bool {
+    nc.has(Op::ReferenceReturn) || nc.has(Op::Reference2)
+}
+
+/// What is placed from home at the start of every block of a library.
+pub struct Homes(Vec<States<FromHome>>);
+
+impl Homes {
+    /// Follows it through a library.
+    pub fn of(module: &Module, facts: &ModalFacts) -> Self {
+        let programs = module.programs.iter().enumerate();
+        let names = programs.clone().filter_map(|(index, program)| Some((program.name.as_ref()?, index)));
+        let names = names.collect();
+        let graphs: Vec<Cfg> = module.programs.iter().map(Cfg::of).collect();
+        let mut found = Self(vec![States::default(); graphs.len()]);
+        let mut ends = vec![Ends::default(); graphs.len()];
+        let mut changed = true;
+        while std::mem::take(&mut changed) {
+            for (index, program) in programs.clone() {
+                let rules = Rules { index, facts, names: &names, ends: &ends };
+                let states = solve(&rules, program, &graphs[index]);
+                let (mut calls, mut own) = (Vec::new(), ends[index]);
+                for (id, block) in program.ids().zip(&program.blocks) {
+                    let Some(mut state) = states.at(id).copied() else { continue };
+                    rules.stmts(id, block, &mut state);
+                    match &block.term.kind {
+                        TermKind::Call { call, .. } => {
+                            own.sets |= rules.callee(call).map_or(0, |callee| ends[callee].sets);
+                            calls.extend(rules.callee(call).map(|callee| (callee, state)));
+                        }
+                        TermKind::Return { .. } => own.exit.0 |= state.0,
+                        _ => {}
+                    }
+                }
+                own.sets |= homes_of(program);
+                changed |= std::mem::replace(&mut ends[index], own) != own;
+                for (callee, state) in calls {
+                    changed |= ends[callee].entry.join(&state);
+                }
+                found.0[index] = states;
+            }
+        }
+        found
+    }
+
+    /// What is placed from home at the start of a block.
+    pub fn at(&self, program: usize, block: BlockId) -> FromHome {
+        self.0.get(program).and_then(|states| states.at(block)).copied().unwrap_or_default()
+    }
+}
+
+/// The axes that a program may send home itself.
+fn homes_of(program: &Program) -> u16 {
+    let blocks = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+    let named = |nc: &Nc| {
+        let all = nc.items.iter().fold(0, |all, item| match item {
+            NcItem::Word(role, _) => all | bit(*role).unwrap_or(0),
+            _ => all,
+        });
+        if all == 0 { u16::MAX } else { all }
+    };
+    blocks.filter(|nc| goes_home(nc) || nc.has(Op::MachineOnce)).fold(0, |all, nc| all | named(nc))
+}
+
+/// What a program is entered with and returns with, and the axes that it, or what it calls, may send home.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Ends {
+    entry: FromHome,
+    exit: FromHome,
+    sets: u16,
+}
+
+struct Rules<'r> {
+    index: usize,
+    facts: &'r ModalFacts,
+    names: &'r HashMap<&'r ProgramName, usize>,
+    ends: &'r [Ends],
+}
+
+impl Rules<'_> {
+    /// The program of the library that a call enters.
+    fn callee(&self, call: &Call) -> Option<usize> {
+        match &call.callee {
+            Callee::Program(name) => self.names.get(name).copied(),
+            Callee::Block(_) => Some(self.index),
+            _ => None,
+        }
+    }
+
+    fn stmts(&self, id: BlockId, block: &Block, state: &mut FromHome) {
+        let mut modal = self.facts.at(self.index, id);
+        for stmt in &block.stmts {
+            modal.step(stmt);
+            if matches!(stmt.kind, StmtKind::Nc(_)) {
+                state.step(stmt, &modal);
+            }
+        }
+    }
+}
+
+impl Analysis for Rules<'_> {
+    type State = FromHome;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, FromHome)> {
+        cfg.roots().iter().map(|root| (*root, self.ends[self.index].entry)).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, state: &mut FromHome) {
+        self.stmts(id, block, state);
+        if let TermKind::Call { call, .. } = &block.term.kind {
+            // What some other caller had in force does not come back here.
+            let kept = |callee: usize| self.ends[callee].exit.0 & (state.0 | self.ends[callee].sets);
+            *state = FromHome(self.callee(call).map_or(0, kept));
+        }
+    }
+}
