@@ -270,6 +270,7 @@ questions! {
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
     TurretNone "turret.offset.none" OneOf(&["all", "wear", "unknown"]), "what offset 00 of a lathe's T word takes away: all of the tool's offset, or its wear alone, so that the geometry stays", if "role:tool.turret";
+    TurretGeometry "turret.geometry" OneOf(&["offset", "tool", "unknown"]), "of which number the geometry of a lathe's tool offset is: the number of the offset in the T word, as the wear is, or that of the station", if "role:tool.turret";
     HolePecks "hole.pecks" OneOf(&["plane", "clearance", "unknown"]), "how far a peck of a lathe's drilling cycle goes back: to its retract plane, or by a \
                                                                         clearance", if "op:hole.face or op:hole.face.peck";
     PolarWords "polar.words" OneOf(&["x.c", "x.y", "unknown"]), "the words of moves on a face while C follows them: X as a diameter and C as a length, or X \

@@ -15,6 +15,7 @@ mod cycle_values;
 pub mod cycle_words;
 mod drawn_lines;
 pub mod faces;
+pub mod geometry_rows;
 mod groove_loops;
 mod groove_passes;
 pub mod held_holes;

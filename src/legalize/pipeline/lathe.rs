@@ -6,9 +6,9 @@ use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
     bare_starts, contour_ends, contour_left, contour_nose, contour_types, contours, corners, counts,
-    cycle_words, faces, held_holes, hole_codes, hole_returns, holes, inch_leads, interpolations,
-    lasting_pecks, lone_passes, modes, none_offsets, pass_run_outs, roughing, run_outs, steps, tap_feeds,
-    thread_ways, written_corners, x_counts, zeros,
+    cycle_words, faces, geometry_rows, held_holes, hole_codes, hole_returns, holes, inch_leads,
+    interpolations, lasting_pecks, lone_passes, modes, none_offsets, pass_run_outs, roughing, run_outs,
+    steps, tap_feeds, thread_ways, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -148,6 +148,12 @@ pub(super) const LATHE: &[Pass] = &[
         none_offsets::run,
     )
     .when(none_offsets::concerns),
+    Pass::reports(
+        "geometry-rows",
+        "reports T words of two numbers, where the two lathes do not take the geometry from the same row",
+        geometry_rows::run,
+    )
+    .when(geometry_rows::concerns),
     Pass::reports(
         "lathe-modes",
         "asks what threads in feed a minute and changes of the speed's mode rest on",

@@ -40,7 +40,7 @@ pub fn nose(machine: &mut Machine, side: Side, trace: &mut Trace) {
     }
     machine.side = side;
     machine.radius_offset = if off { 0 } else { machine.lathe.offset };
-    let row = machine.lathe.row(machine.radius_offset);
+    let row = machine.offset_row(machine.radius_offset);
     let (value, tip) = if off { (0.0, 0) } else { (row.radius, row.tip.clamp(0.0, 9.0) as u32) };
     trace.push(EventKind::CutterRadius { side, offset: machine.radius_offset, value, tip });
 }
@@ -49,13 +49,13 @@ pub fn nose(machine: &mut Machine, side: Side, trace: &mut Trace) {
 const GEOMETRY: u32 = 10_000;
 
 impl Lathe {
-    /// What an offset adds: geometry and wear together (T3).
-    fn row(&self, number: u32) -> Offset {
+    /// What an offset adds: the wear of its row and the geometry of that one, together (T3).
+    fn row(&self, number: u32, geometry: u32) -> Offset {
         if number == 0 {
             return Offset::default();
         }
-        let of = |table: &BTreeMap<u32, Offset>| table.get(&number).copied().unwrap_or_default();
-        let (own, more) = (of(&self.table), of(&self.geometry));
+        let of = |table: &BTreeMap<u32, Offset>, number| table.get(&number).copied().unwrap_or_default();
+        let (own, more) = (of(&self.table, number), of(&self.geometry, geometry));
         Offset {
             x: own.x + more.x,
             y: own.y + more.y,
@@ -67,6 +67,16 @@ impl Lathe {
 }
 
 impl Machine {
+    /// What an offset adds for the tool that is there.
+    fn offset_row(&self, number: u32) -> Offset {
+        self.lathe.row(number, self.geometry_of(number))
+    }
+
+    /// The row of the geometry that belongs to an offset: its own, or that of the station (T3).
+    fn geometry_of(&self, offset: u32) -> u32 {
+        if self.rules.turning.geometry_by_station { self.tool as u32 } else { offset }
+    }
+
     /// Puts a lathe into the state that power-on leaves (C6, S4).
     pub(in crate::control::machine) fn start_turning(&mut self, control: &Control) {
         if !self.rules.lathe {
@@ -96,7 +106,7 @@ impl Machine {
     /// The offset in force counts from here on; nothing moves (T3).
     fn apply_offset(&mut self, before: u32, trace: &mut Trace) {
         let number = self.lathe.offset;
-        let Offset { x, y, z, .. } = self.lathe.row(number);
+        let Offset { x, y, z, .. } = self.offset_row(number);
         let old = self.frame.tool.unwrap_or_default();
         if number == 0 && self.rules.turning.keeps_geometry {
             self.leave_geometry(before, trace);
@@ -117,7 +127,7 @@ impl Machine {
         if before == 0 {
             return;
         }
-        let rest = self.lathe.geometry.get(&before).copied().unwrap_or_default();
+        let rest = self.lathe.geometry.get(&self.geometry_of(before)).copied().unwrap_or_default();
         self.frame.tool = Some([rest.x, rest.y, rest.z]);
         trace.push(EventKind::ToolOffset { offset: 0, x: 0.0, z: 0.0 });
     }
