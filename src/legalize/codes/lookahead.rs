@@ -5,9 +5,10 @@
 //! limited to the least and empty blocks hold it back. Where the target has no such limit, none is set; if it has a block that stops
 //! reading ahead, a program that sets a limit waits before it reads where the machine is. Both change when a
 //! value is read or an output is switched, never what is computed; hence review diagnostics. A limit in a program that
-//! reads no state of the machine is dropped with a note. Side condition: no cutter compensation is in force, under which the
+//! reads no state of the machine and has no common variable is dropped with a note; what `outside` says of common variables holds for the others. Side condition: no cutter compensation is in force, under which the
 //! target takes no limit; where the library compensates, the limit is taken off again after the empty blocks.
 
+use super::outside;
 use super::waits::hold;
 use crate::assume::Predicate;
 use crate::canon::{Group, Op};
@@ -34,9 +35,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let early = context.target.is(Question::LookaheadRunsEarly);
     let stops = context.target.statement("lookahead.stop").is_some();
     let reads: Vec<bool> = module.programs.iter().map(reads_state).collect();
+    let shares: Vec<bool> = module.programs.iter().map(outside::shares).collect();
     if !waits && !limits && stops && early {
         let come_back = may_come_back(module);
-        for program in module.programs.iter_mut().filter(|program| is_limited(program)) {
+        for (program, shares) in module.programs.iter_mut().zip(&shares) {
+            if !is_limited(program) {
+                continue;
+            }
+            if *shares {
+                outside::hold(program);
+            }
             hold(program, come_back, false, None);
         }
     }
@@ -79,8 +87,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
             }
             StmtKind::LimitLookahead(_) if !limits => {
-                let told = match reads.get(index) {
-                    Some(false) => Diagnostic::new(Code::QualityDropped, span, UNREAD),
+                let told = match (reads.get(index), shares.get(index)) {
+                    (Some(false), Some(false)) => Diagnostic::new(Code::QualityDropped, span, UNREAD),
+                    (Some(false), _) if stops && early => Diagnostic::new(Code::QualityDropped, span, SHARED),
                     _ => {
                         let what = if stops && early { HELD } else { DROPPED };
                         Diagnostic::new(Code::Conditional, span, what).asked_once()
@@ -100,10 +109,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     module.programs.iter_mut().flat_map(|p| &mut p.blocks).for_each(|block| _ = drop_emptied(block));
 }
 
-const DROPPED: &str = "the limit on reading ahead is dropped: the target has none, so the blocks after it may read inputs and switch outputs early";
+const DROPPED: &str = "the limit on reading ahead is dropped: the target has none, so the blocks after it may read inputs, switch outputs and write common variables early";
 
-const HELD: &str = "the limit on reading ahead is dropped: the target has none. It waits before each place that it reads, but the blocks after the \
-     limit may read inputs and switch outputs early";
+const HELD: &str = "the limit on reading ahead is dropped: the target has none. It waits in its place where the program has common variables, and before each place \
+     that it reads, but the blocks after the limit may read inputs and switch outputs early";
+
+const SHARED: &str = "the limit on reading ahead is dropped: the target has none. It waits in its place, and before it writes a common variable that \
+     this program does not read, until the moves before are done";
 
 const UNREAD: &str = "the limit on reading ahead is dropped: the target has none, and nothing in this program reads or writes what reading \
      ahead could change";

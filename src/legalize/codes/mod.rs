@@ -15,6 +15,7 @@ pub(in crate::legalize) mod lookahead;
 pub(in crate::legalize) mod machine_codes;
 pub(in crate::legalize) mod missing;
 pub(in crate::legalize) mod offset_chains;
+mod outside;
 pub(in crate::legalize) mod pauses;
 pub(in crate::legalize) mod substitutes;
 pub(in crate::legalize) mod through_coolant;
