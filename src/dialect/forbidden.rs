@@ -1,6 +1,6 @@
 //! What a control takes for a fault in a block: under a code in force, beside another word, by a value.
 
-use super::{Control, Origin, Setting};
+use super::{Control, Origin, Question, Row, Setting};
 use crate::canon::{Op, Role};
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +29,8 @@ pub struct Forbidden {
     pub help: Option<String>,
     /// The kind of machine that has it, where not all do.
     pub machine: Option<String>,
+    /// A question of behaviour whose confirmed answer settles it for a machine. Until then what stands there is for review, and not refused.
+    pub asks: Option<String>,
     /// The setting under which it holds.
     pub when: Option<String>,
     /// Where it comes from.
@@ -56,6 +58,13 @@ impl Control {
                 && row.under.iter().any(|under| *under != op && in_force(*under))
                 && !row.unless.iter().any(|one| in_force(*one))
         })
+    }
+
+    /// True where a row is no matter on this machine: somebody answered its question.
+    pub fn allows(&self, row: &Forbidden) -> bool {
+        let question = row.asks.as_deref().and_then(Question::find);
+        let answer = question.and_then(|question| self.behaviour(question));
+        answer.is_some_and(|answer| answer.origin().is_confirmed() && answer.value != "unknown")
     }
 
     /// The first word of a block that is a fault beside a code of it, or by its value: `value` gives that of a word that

@@ -59,6 +59,23 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 fn check(op: Op, in_force: impl Fn(Op) -> bool, span: Span, index: usize, context: &mut Context<'_>) {
     let Some(row) = context.target.forbids(op, &in_force) else { return };
     let under = row.under.iter().copied().find(|under| in_force(*under));
+    if let Some(question) = &row.asks {
+        // A source that has the row too ran the program as it is.
+        let ran = context.source.forbids(op, &in_force).is_some_and(|own| own.asks.is_some());
+        if ran || context.target.allows(row) {
+            return;
+        }
+        let what = format!(
+            "{}: its makers' manuals say not to write it so",
+            describe(op, under, row, context.target)
+        );
+        let help = format!(
+            "end it in a block before, and begin it again after; or, where the machine takes the code, write in its profile, under \
+             [behaviours]: \"{question}\" = \"kept\""
+        );
+        let told = Diagnostic::new(Code::Conditional, span, what).with_help(help);
+        return context.add_once(index, &format!("forbidden {} {under:?}", op.name()), told);
+    }
     let what = describe(op, under, row, context.target);
     let help = "end it in a block before, or write the part without it";
     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
@@ -70,5 +87,6 @@ fn describe(op: Op, under: Option<Op>, row: &Forbidden, target: &Control) -> Str
         None => op.meaning().trim().trim_end_matches('.').to_lowercase(),
     };
     let under = under.map(spelled).unwrap_or_default();
-    format!("{} while {under} is in force is a fault on the target ({})", spelled(op), row.origin.source)
+    let fault = if row.asks.is_some() { "may be a fault" } else { "is a fault" };
+    format!("{} while {under} is in force {fault} on the target ({})", spelled(op), row.origin.source)
 }
