@@ -12,6 +12,7 @@ pub(in crate::legalize) mod later_lengths;
 pub(in crate::legalize) mod left_shifts;
 pub(in crate::legalize) mod length_radius;
 pub(in crate::legalize) mod missing_length;
+pub(in crate::legalize) mod missing_radius;
 pub(in crate::legalize) mod named_lengths;
 pub(in crate::legalize) mod no_shifts;
 pub(in crate::legalize) mod offset_numbers;

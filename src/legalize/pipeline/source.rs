@@ -14,7 +14,7 @@ use crate::legalize::features::Feature;
 use crate::legalize::lathe::{contour_numbers, other_kind};
 use crate::legalize::layout::skip_runs;
 use crate::legalize::moves::{bare_feeds, first_increments};
-use crate::legalize::offsets::{arc_starts, known_tools, missing_length};
+use crate::legalize::offsets::{arc_starts, known_tools, missing_length, missing_radius};
 use crate::legalize::variables::last_words;
 
 /// Before what is read is folded away.
@@ -107,6 +107,12 @@ pub(super) const SOURCE: &[Pass] = &[
         missing_length::run,
     )
     .when(missing_length::concerns),
+    Pass::reports(
+        "missing-radius",
+        "tells of cutter compensation in programs that name no cutter radius",
+        missing_radius::run,
+    )
+    .when(missing_radius::concerns),
     Pass::reports("arc-starts", "refuses cutter compensation that begins or ends on an arc", arc_starts::run)
         .when(arc_starts::concerns),
     Pass::reports("first-increments", "tells of increments right after a rotation", first_increments::run)
