@@ -35,8 +35,9 @@ pub const ROLES: [Role; 8] = [
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let parts = parts(module, context);
+    let dwells = dwells(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let rules = Rules { index, facts: &facts, parts, context };
+        let rules = Rules { index, facts: &facts, parts, dwells, context };
         let starts = solve(&rules, program, &Cfg::of(program));
         for (id, block) in program.ids().zip(&mut program.blocks) {
             let mut state = facts.at(index, id);
@@ -214,12 +215,15 @@ struct Rules<'r> {
     facts: &'r ModalFacts,
     /// True where any block of the library tells the target another dwell than the source.
     parts: bool,
+    /// True where some block of the library names a dwell of a cycle.
+    dwells: bool,
     context: &'r Context<'r>,
 }
 
 impl Rules<'_> {
     fn unknown(&self) -> Lasting {
-        Lasting { dwell: Dwell::Many, away: self.parts }
+        let dwell = if self.dwells { Dwell::Many } else { Dwell::Is(None) };
+        Lasting { dwell, away: self.parts }
     }
 }
 
@@ -246,6 +250,12 @@ impl Analysis for Rules<'_> {
             *lasting = self.unknown();
         }
     }
+}
+
+/// True where any block of a library names a dwell of a cycle: where none does none lasts.
+fn dwells(module: &Module) -> bool {
+    let mut stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    stmts.any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.word(Role::CycleDwell).is_some()))
 }
 
 /// True where any block of a library tells the target another dwell than the source.

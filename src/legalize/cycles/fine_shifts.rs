@@ -2,7 +2,7 @@
 //!
 //! Law: one word says how far the tool goes along the first axis of the plane, whatever its sign; the other two say by how much it
 //! goes along each axis. So `Q0.2` is `I0.2`, and `I0.2` alone is `Q0.2`. Side conditions: the shift goes along the first axis, and
-//! the way of the machine with the one word, plus where nobody says it (a shift another way is refused); the cycle is told the word itself, as others share the letters.
+//! the way of the machine with the one word, plus where nobody says it (a shift another way is refused); the cycle is told the word itself, as others share the letters; what follows it without G80 takes none of them.
 //! Counter-example: `G83 Q5.`, then `G76` without Q.
 
 use super::shift_ways::{Way, way, write};
@@ -37,6 +37,14 @@ pub(super) fn fit(
     let says_cycle = nc.ops().any(|op| op.group() == Group::Cycle);
     let is_told = nc.word(role).is_some();
     let follows = says_cycle && before != Some(Op::CycleOff) && before != Some(op);
+    // A cycle that takes none of these words on either control is told nothing by the bore before it.
+    let no_shift = |control: &Control| {
+        let words = [Role::CycleQ, Role::CycleI, Role::CycleJ];
+        control.code_for(op, &BTreeMap::new()).is_some_and(|row| !words.iter().any(|role| row.takes(*role)))
+    };
+    if follows && op != Op::CycleFineBore && no_shift(context.source) && no_shift(context.target) {
+        return;
+    }
     if follows && (op != Op::CycleFineBore || !is_told) {
         return context.add_once(index, FOLLOWS, Diagnostic::new(Code::NoEquivalent, span, FOLLOWS));
     }

@@ -3,7 +3,8 @@
 //! Laws: where the source keeps the local shift in the register of the shift of all offsets, to write that register is
 //! the local shift of the axis. Where the target does and the source does not, a library that uses one of the two alone
 //! says the same there. Side conditions: nothing reads the register in the first case; in the second it holds nothing
-//! that the end of the program would clear. Where it ends: a library that uses both is refused.
+//! that the end of the program would clear. Where it ends: a library that uses both is refused, but for a block that sets the shift of
+//! all offsets to 0, which a person looks at.
 
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
@@ -138,6 +139,18 @@ fn writes(nc: &Nc) -> Option<bool> {
     nc.word(Role::OffsetRow)?.constant().map(|row| row == 0.0)
 }
 
+const CLEARED: &str = "this sets the shift of all work offsets to 0, and on the target the local shift is the same register: make sure that no \
+                       local shift is in force here";
+
+/// True where all that a block writes is 0.
+fn writes_zeros(nc: &Nc) -> bool {
+    let mut places = nc.items.iter().filter_map(|item| match item {
+        NcItem::Word(role, value) if role.is_axis() => Some(value),
+        _ => None,
+    });
+    places.all(|value| value.constant() == Some(0.0))
+}
+
 /// The target has one register, the source two.
 fn to_one(module: &Module, context: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
@@ -158,7 +171,10 @@ fn to_one(module: &Module, context: &mut Context<'_>) {
             if !written && !mixed {
                 continue;
             }
-            let (code, what) = if local {
+            let clears = stmt.kind.nc().is_some_and(|nc| writes(nc) == Some(true) && writes_zeros(nc));
+            let (code, what) = if local && clears && !mixed {
+                (Code::Conditional, CLEARED)
+            } else if local {
                 let what = "the library uses the shift of all work offsets and the local shift: on the \
                             target both are one register";
                 (Code::NoEquivalent, what)

@@ -122,6 +122,7 @@ pub fn keeps(op: Op) -> bool {
                 | Spindle
                 | Coolant
         )
+        || matches!(op, Op::ThroughSpindle | Op::ThroughSpindleOff)
 }
 
 /// True for a call that moves nothing.
