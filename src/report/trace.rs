@@ -223,7 +223,7 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
         Asked { answer } => format!("asked   {}", number(*answer)),
         Other { operation, code: Some(code) } => format!("{operation} {code}"),
         Other { operation, code: None } => format!("{operation}"),
-        Act { name, words } => format!("code    {}", act(name, words)),
+        Act { name, words, surface } => format!("code    {}", act(name, words, *surface)),
         End { by } => format!("{by}"),
         Enter { program, .. } => {
             let name = programs.get(*program as usize).map_or("", |program| program.name.as_str());
@@ -236,10 +236,11 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
 }
 
 /// A builder's code by its name, with the values of its words.
-pub(super) fn act(name: &str, words: &std::collections::BTreeMap<String, f64>) -> String {
+pub(super) fn act(name: &str, words: &std::collections::BTreeMap<String, f64>, surface: bool) -> String {
     let name = name.split(crate::canon::Act::OWN).next().unwrap_or(name);
     let words = words.iter().map(|(word, value)| format!(" {word} {}", number(*value)));
-    words.fold(name.to_owned(), |all, word| all + &word)
+    let all = words.fold(name.to_owned(), |all, word| all + &word);
+    if surface { all + " (surface speed)" } else { all }
 }
 
 #[cfg(test)]

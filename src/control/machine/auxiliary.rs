@@ -168,9 +168,9 @@ pub(super) fn builders(machine: &mut Machine, command: &Command, act: Act, trace
     let words = command.words.iter().filter_map(|(role, value)| Some((act.word_name(*role)?, *value)));
     let words = words.filter(|(name, _)| !Act::is_dropped(name));
     let mut words: BTreeMap<String, f64> = words.collect();
-    spoken::beside(machine, command, act, &mut words);
+    let surface = spoken::beside(machine, command, act, &mut words);
     if lathe::engaging::by_code(machine, act) {
-        trace.push(EventKind::Act { name: act.name(), words });
+        trace.push(EventKind::Act { name: act.name(), words, surface });
     }
     machine.answers(act);
 }

@@ -27,10 +27,19 @@ impl Spoken {
     }
 }
 
-/// A builder's code: gives it the last S where it reads S and has none.
-pub(super) fn beside(machine: &mut Machine, command: &Command, act: Act, words: &mut BTreeMap<String, f64>) {
-    let Some(role) = machine.rules.speaks.get(&act).copied() else { return machine.spoken.doubt() };
-    match command.word(role) {
+/// A builder's code: gives it the last S where it reads S and has none. True where its S counts what the surface does.
+pub(super) fn beside(
+    machine: &mut Machine,
+    command: &Command,
+    act: Act,
+    words: &mut BTreeMap<String, f64>,
+) -> bool {
+    let Some(role) = machine.rules.speaks.get(&act).copied() else {
+        machine.spoken.doubt();
+        return false;
+    };
+    let said = command.word(role);
+    match said {
         Some(speed) => machine.spoken.says(speed, machine.surface_speed),
         None => {
             let last = machine.spoken.speed.filter(|_| command.word(Role::Speed).is_none());
@@ -38,6 +47,7 @@ pub(super) fn beside(machine: &mut Machine, command: &Command, act: Act, words: 
         }
     }
     machine.spoken.turns = Some(act);
+    said.is_some() && machine.surface_speed
 }
 
 /// An S by itself while such a tool turns: it turns at that from here on.
@@ -51,6 +61,7 @@ pub(super) fn again(machine: &Machine, command: &Command, trace: &mut Trace) {
     trace.push(EventKind::Act {
         name: act.name(),
         words: name.into_iter().map(|name| (name, speed)).collect(),
+        surface: false,
     });
 }
 

@@ -344,6 +344,9 @@ pub enum EventKind {
         /// The values of its words, by their names.
         #[serde(skip_serializing_if = "std::collections::BTreeMap::is_empty")]
         words: std::collections::BTreeMap<String, f64>,
+        /// True where the speed among them counts what the surface does, not turns.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        surface: bool,
     },
     /// The program ended.
     End {

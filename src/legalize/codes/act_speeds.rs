@@ -16,6 +16,7 @@ use crate::legalize::Context;
 use crate::legalize::codes::ahead::ahead;
 use crate::legalize::cycles::tap_leads::Speed;
 use crate::legalize::features::Features;
+use crate::text::Span;
 use live::{Known, Live, Lives, acts, names_tool};
 
 /// True where there are codes of builders.
@@ -72,6 +73,7 @@ fn give(stmt: &mut Stmt, index: usize, before: Known, context: &mut Context<'_>)
         let help = "write S in this block of the source";
         context.add(index, Diagnostic::new(Code::Conditional, span, what).with_help(help));
     }
+    let surface = counts_surface(before, nc);
     let own: Vec<Act> = acts(nc).collect();
     for act in own {
         let Some(row) = target.code_of(act) else { continue };
@@ -81,6 +83,10 @@ fn give(stmt: &mut Stmt, index: usize, before: Known, context: &mut Context<'_>)
         match (ours, theirs) {
             (Some(ours), theirs) if theirs != Some(ours) => {
                 if said(ours, nc) {
+                    if surface {
+                        let there = format!("{code} of the target takes turns a minute in its word");
+                        of_surface(index, span, (&name, &there), context);
+                    }
                     continue;
                 }
                 let speed = if nc.word(Role::Speed).is_some() { Speed::Unknown } else { before.speed };
@@ -102,14 +108,32 @@ fn give(stmt: &mut Stmt, index: usize, before: Known, context: &mut Context<'_>)
                 let help = "write the speed in this block of the source";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
             }
+            (None, Some(theirs)) if surface && said(theirs, nc) => {
+                let there =
+                    format!("S of {code} on the target would count it, and the word here counts turns");
+                of_surface(index, span, (&name, &there), context);
+            }
             (None, None) => wanted(act, index, span, context),
             _ => {}
         }
     }
 }
 
+/// True where S of a block counts what the surface does, or may.
+fn counts_surface(before: Known, nc: &Nc) -> bool {
+    before.speed == Speed::Surface && !nc.has(Op::TurnsPerMinute) || nc.has(Op::SurfaceSpeed)
+}
+
+/// Refuses a speed that counts the surface on one of the two machines alone.
+fn of_surface(index: usize, span: Span, (name, there): (&str, &str), context: &mut Context<'_>) {
+    let what = format!("constant surface speed is in force at {name}: {there}");
+    let help = "write the code for turns a minute and the turns in this block, if the part may be turned so; else write this part of the \
+                program by hand, in the target's way for that spindle";
+    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+}
+
 /// Asks for words of the target's code that the source's never gives.
-fn wanted(act: Act, index: usize, span: crate::text::Span, context: &mut Context<'_>) {
+fn wanted(act: Act, index: usize, span: Span, context: &mut Context<'_>) {
     let Some(row) = context.target.code_of(act) else { return };
     let given = context.source.act_words(act);
     let Some((letter, role)) = row.words.iter().find(|(_, role)| !given.contains(role)) else { return };
@@ -141,11 +165,13 @@ fn turned(
     out: &mut Stmts,
 ) {
     let StmtKind::Nc(nc) = &stmt.kind else { return };
-    let surface = before.speed == Speed::Surface && !nc.has(Op::TurnsPerMinute) || nc.has(Op::SurfaceSpeed);
     let switches = [Op::SpindleCw, Op::SpindleCcw, Op::SpindleStop, Op::RigidTaps];
     let other = nc.ops().any(|op| switches.contains(&op)) || acts(nc).next().is_some();
-    let (Some(speed), false) = (nc.word(Role::Speed).cloned(), surface || other) else { return };
+    let (Some(speed), false) = (nc.word(Role::Speed).cloned(), other) else { return };
     let span = stmt.site.span;
+    if counts_surface(before, nc) {
+        return under_surface(index, (before.live, starts), span, context);
+    }
     let changes = nc.has(Op::ToolChange) || names_tool(nc);
     match before.live {
         Live::On(act) if !changes => {
@@ -190,6 +216,24 @@ fn turned(
         }
         Live::No => {}
     }
+}
+
+/// Tells S under constant surface speed while what a code turns may turn, and no spindle starts before the next move.
+fn under_surface(index: usize, (live, starts): (Live, bool), span: Span, context: &mut Context<'_>) {
+    let Live::On(act) = live else { return };
+    if starts
+        || context.source.speed_word(act) == context.target.speed_word(act)
+        || context.target.code_of(act).is_none()
+    {
+        return;
+    }
+    let what = format!(
+        "S under constant surface speed after {}: whether it is for what that code turns is the builder's, and the target takes turns a \
+         minute at its code",
+        shown(act, context)
+    );
+    let help = "make sure that this S is for the main spindle, or write this part of the program by hand";
+    context.add(index, Diagnostic::new(Code::Conditional, span, what).with_help(help));
 }
 
 /// A code for people: as it is written, and what it does.

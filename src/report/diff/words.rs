@@ -266,7 +266,7 @@ impl Unit {
                 format!("{number} {}", stop.text).trim().to_owned()
             }
             Asked { answer } => number(*answer),
-            Act { name, words } => crate::report::trace::act(name, words),
+            Act { name, words, surface } => crate::report::trace::act(name, words, *surface),
             Other { operation, code } => code.clone().unwrap_or_else(|| operation.to_string()),
             Corner { chamfer, size } => {
                 format!("{} {}", if *chamfer { "chamfer" } else { "radius" }, self.length(*size, true))

@@ -133,7 +133,7 @@ pub fn differ(
         }
         // The operator is shown more than before.
         (Stop, Message { .. }) => None,
-        (Act { name, words }, Act { name: other, words: others }) => {
+        (Act { name, words, surface }, Act { name: other, words: others, surface: of_surface }) => {
             let near = |(word, value): (&String, &f64)| {
                 others.get(word).is_some_and(|other| !differs(*value, *other))
             };
@@ -141,7 +141,8 @@ pub fn differ(
                 Some("they do different things")
             } else {
                 let same = words.len() == others.len() && words.iter().all(near);
-                (!same).then_some("a word of a builder's code differs")
+                let counts = (surface != of_surface).then_some("S of a builder's code counts otherwise");
+                if same { counts } else { Some("a word of a builder's code differs") }
             }
         }
         (Asked { answer }, Asked { answer: other }) => {

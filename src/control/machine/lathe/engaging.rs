@@ -12,7 +12,7 @@ pub(super) const C: usize = 5;
 pub fn by_return(machine: &mut Machine, named: &[usize], trace: &mut Trace) {
     if machine.rules.turning.c_by_return && named.contains(&C) {
         machine.lathe.c_engaged = true;
-        trace.push(EventKind::Act { name: Act::C_AXIS[0].into(), words: BTreeMap::new() });
+        trace.push(EventKind::Act { name: Act::C_AXIS[0].into(), words: BTreeMap::new(), surface: false });
     }
 }
 
@@ -32,6 +32,6 @@ pub fn by_code(machine: &mut Machine, act: Act) -> bool {
 /// The spindle starts: where a return engages C, this lets it go.
 pub fn by_start(machine: &mut Machine, trace: &mut Trace) {
     if machine.rules.turning.c_by_return && std::mem::take(&mut machine.lathe.c_engaged) {
-        trace.push(EventKind::Act { name: Act::C_AXIS[1].into(), words: BTreeMap::new() });
+        trace.push(EventKind::Act { name: Act::C_AXIS[1].into(), words: BTreeMap::new(), surface: false });
     }
 }
