@@ -91,6 +91,8 @@ pub enum Predicate {
     Levels(Vec<Span>, usize),
     /// The tools that these blocks change to are whole numbers, and not 0.
     Tools(Vec<Span>),
+    /// The spindle stands at the stops of these blocks.
+    Stands(Vec<Span>),
     /// The target has no such operation: it does something near instead, or nothing, and a person accepts that.
     Substitute(Op),
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
@@ -109,7 +111,8 @@ impl Predicate {
             | Self::ArcEnds(places)
             | Self::Pecks(places)
             | Self::Levels(places, _)
-            | Self::Tools(places) => Some(places),
+            | Self::Tools(places)
+            | Self::Stands(places) => Some(places),
             _ => None,
         }
     }
@@ -137,6 +140,7 @@ impl Predicate {
             Self::Pecks(_) => "pecks",
             Self::Levels(..) => "levels",
             Self::Tools(_) => "tools",
+            Self::Stands(_) => "spindle_stands",
             Self::Substitute(_) => "substitute",
             Self::Unseen => "unseen",
         }
@@ -189,7 +193,7 @@ impl Predicate {
             | Self::TurnedSetting(..)
             | Self::Pecks(_)
             | Self::Levels(..) => Vec::new(),
-            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::WholeSpeeds(_) => Vec::new(),
+            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::WholeSpeeds(_) | Self::Stands(_) => Vec::new(),
             Self::Tools(_) | Self::Substitute(_) | Self::Unseen | Self::OfMachine(_) => Vec::new(),
         }
     }

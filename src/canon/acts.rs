@@ -31,6 +31,26 @@ impl Act {
     /// The name of the code that engages the C axis of a lathe, and of the one that lets it go: profiles write these.
     pub const C_AXIS: [&'static str; 2] = ["c.axis.on", "c.axis.off"];
 
+    /// Names that profiles write for codes which leave the main spindle as it is.
+    pub const KEEP_SPINDLE: [&'static str; 16] = [
+        "air.off",
+        "air.on",
+        "c.brake.off",
+        "c.brake.on",
+        "chip.conveyor.forward",
+        "chip.conveyor.stop",
+        "chuck.clamp",
+        "chuck.second.clamp",
+        "chuck.second.unclamp",
+        "chuck.unclamp",
+        "door.close",
+        "door.open",
+        "parts.catcher.in",
+        "parts.catcher.out",
+        "tailstock.back",
+        "tailstock.forward",
+    ];
+
     /// The act of a name. Of two names that make one number the later gets the next that is free.
     pub fn named(name: &str) -> Self {
         let mut all = NAMED.write().unwrap_or_else(PoisonError::into_inner);

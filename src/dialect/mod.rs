@@ -88,7 +88,7 @@ pub use registry::Entry;
 pub use row::Row;
 pub use rows::*;
 pub use second_home::{HOLE_CLAMP, SECOND_HOME, STEP_LETTERS};
-pub use site::{SiteCode, Without};
+pub use site::{Keeps, SiteCode, Without};
 pub use spelling::{Beside, CodeHead, beside_letter, measures};
 pub use standing::Standing;
 pub use standing_results::StandingResults;

@@ -49,6 +49,9 @@ pub struct SiteCode {
     /// Variables that it sets, with the names that the shop gives them.
     #[serde(default)]
     pub sets: BTreeMap<String, String>,
+    /// What it leaves as it was, though nobody would know it by its name.
+    #[serde(default)]
+    pub keeps: Option<Keeps>,
     /// False for a second code of one name, which is read and never written.
     #[serde(default = "super::model::yes")]
     pub preferred: bool,
@@ -66,6 +69,14 @@ pub enum Without {
     Same,
     /// The machine stops with an alarm: the run must not come there.
     Alarm,
+}
+
+/// What a builder's code leaves as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Keeps {
+    /// The spindle: it turns, or stands, as before.
+    Spindle,
 }
 
 impl SiteCode {

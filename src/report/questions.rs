@@ -271,6 +271,7 @@ fn danger(finding: &Diagnostic) -> usize {
                 Predicate::Loaded(_)
                 | Predicate::Holds(..)
                 | Predicate::Tools(_)
+                | Predicate::Stands(_)
                 | Predicate::Setting(..)
                 | Predicate::TurnedSetting(..)
                 | Predicate::OfMachine(_),

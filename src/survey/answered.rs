@@ -159,6 +159,7 @@ fn site(code: &str, words: &[char], op: Option<Op>) -> SiteCode {
         arguments: false,
         reads: BTreeMap::new(),
         sets: BTreeMap::new(),
+        keeps: None,
         preferred: true,
     }
 }

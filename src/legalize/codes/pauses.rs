@@ -15,10 +15,12 @@ mod after;
 mod kinds;
 mod lost;
 mod related;
+mod touched;
 
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Ends;
+use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
@@ -29,6 +31,7 @@ use kinds::{ends_run, has_messages, restarts, stops_in, tool_after, written};
 pub(in crate::legalize) use related::related;
 use related::spread;
 use std::collections::BTreeMap;
+use touched::{Touched, Touches};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
 pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force, and this block does something \
@@ -129,6 +132,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     spread(&mut lost, module, context);
     let passes = context.target.skips_same_tool() && !context.source.skips_same_tool();
     let after = After::of(module, &facts, [context.source, context.target]);
+    let touches = OverCalls::of(module, &Touches([context.source, context.target]));
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| asks(index, block)) {
             let mut place = Place {
@@ -144,6 +148,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 after: &after,
                 again: Vec::new(),
                 tool: None,
+                touched: touches.at(index, id).copied().unwrap_or_default(),
                 stood_in: false,
                 is_plain_stop: false,
                 passes,
@@ -239,6 +244,8 @@ struct Place<'p> {
     again: Vec<(usize, Op)>,
     /// The tool that the block put into the spindle last.
     tool: Option<f64>,
+    /// A builder's code since the program last said what the spindle does.
+    touched: Touched,
     /// True at a message that is a program stop of the source, which has no messages and showed a text before it.
     is_plain_stop: bool,
     /// True at a stop that stands for a code of the source which ends nothing there.
@@ -254,6 +261,7 @@ impl Place<'_> {
         for (number, stmt) in block.stmts.iter().enumerate() {
             let pause = pause_of(&stmt.kind);
             self.state.step(stmt);
+            self.touched.step(stmt, [context.source, context.target]);
             let before = self.tool;
             self.tool = tool_after(&stmt.kind, before).filter(|_| !self.state.may_call());
             let is_other = matches!((before, self.tool), (Some(before), Some(tool)) if before != tool);
@@ -364,7 +372,10 @@ impl Place<'_> {
             let known = sure && here.answer != Some(true) && !self.lost[running as usize];
             match again.filter(|_| known) {
                 Some(op) if self.after.shows(self.index, self.id, number, running) => {
-                    self.again.push((number - 1, op));
+                    match self.touched.0.filter(|_| running == Running::Spindle) {
+                        Some(act) => touched::tell(act, self.index, span, context),
+                        None => self.again.push((number - 1, op)),
+                    }
                 }
                 None if here.answer == Some(false) && there.answer != Some(false) && matters => {
                     self.tell(pause, there, span, context);

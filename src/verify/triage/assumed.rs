@@ -5,6 +5,7 @@
 //! known here.
 
 use super::computed::{beside, computed, judged, numbers};
+use super::standing::stands;
 use crate::assume::{Assumption, Predicate};
 use crate::canon::Op;
 use crate::control::trace::{Event, EventKind, ODD_SPEED};
@@ -165,6 +166,7 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         Predicate::Pecks(places) => pecks(run, of, places),
         Predicate::Levels(places, along) => levels(run, of, places, *along),
         Predicate::Tools(places) => tools(run, of, places),
+        Predicate::Stands(places) => stands(run, of, places),
     }
 }
 
@@ -188,6 +190,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Pecks(_)
         | Predicate::Levels(..)
         | Predicate::Tools(_)
+        | Predicate::Stands(_)
         | Predicate::Substitute(_)
         | Predicate::OfMachine(_)
         | Predicate::Unseen

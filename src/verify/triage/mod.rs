@@ -5,6 +5,7 @@ mod assumed;
 mod callers;
 mod computed;
 mod rounding;
+mod standing;
 mod stops;
 
 pub use assumed::{Tried, excuse, facts, moved, telling_numbers, told_substitutes, tried};
