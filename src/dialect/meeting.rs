@@ -29,7 +29,7 @@ impl Control {
             return Ok((source, target));
         }
         let (mut ours, mut theirs) = (source.dialect.clone(), target.dialect.clone());
-        let mut faults = Vec::new();
+        let (mut faults, mut first) = (Vec::new(), Vec::new());
         for (site, code) in named {
             let Some(act) = source.act_of(&site) else { continue };
             let has =
@@ -39,7 +39,13 @@ impl Control {
                 continue;
             }
             match met(&site, act, &code, &target) {
-                Ok(Met::Target(row)) => site_rows::lay(&mut theirs, row),
+                Ok(Met::Target(row)) => match second(&site, &row, &mut first, &source) {
+                    Some((row, row_there)) => {
+                        site_rows::lay(&mut theirs, row_there);
+                        site_rows::lay(&mut ours, row);
+                    }
+                    None => site_rows::lay(&mut theirs, row),
+                },
                 Ok(Met::Source(row)) => site_rows::lay(&mut ours, row),
                 Err(message) => {
                     let span =
@@ -68,6 +74,39 @@ impl Control {
         };
         Ok((again(source, ours), again(target, theirs)))
     }
+}
+
+/// The rows of a second code of the source that becomes a code which one before it becomes: here it does what that one does, and the
+/// target's code takes the words of both. None for the first of them, which `first` keeps.
+fn second(
+    site: &SiteCode,
+    row: &CodeMeaning,
+    first: &mut Vec<CodeMeaning>,
+    source: &Control,
+) -> Option<(CodeMeaning, CodeMeaning)> {
+    // One that reads the last S would give its speed to the other.
+    let spoken = source.act_of(site).is_some_and(|act| source.speed_word(act).is_some());
+    let plain = site.reads.is_empty() && site.sets.is_empty() && site.fixed.is_empty() && !spoken;
+    let same = |other: &&mut CodeMeaning| other.head() == row.head() && other.beside() == row.beside();
+    let Some(other) = first.iter_mut().find(same).filter(|_| plain) else {
+        first.extend(plain.then(|| row.clone()));
+        return None;
+    };
+    let act = Act::of(*other.fixed.get(&Role::Act)?)?;
+    let mut words = BTreeMap::new();
+    for (letter, there) in &site.words {
+        let role = if there.trim().is_empty() {
+            act.word(&Act::dropped(letter))
+        } else {
+            let there = if site.target.is_some() { there } else { letter };
+            let role = other.words.get(there).copied().or_else(|| act.word(&format!("{letter}.{there}")));
+            other.words.extend(role.map(|role| (there.clone(), role)));
+            role
+        };
+        words.extend(role.map(|role| (letter.clone(), role)));
+    }
+    let ours = CodeMeaning { words, preferred: false, ..site.row(Some(act)) };
+    Some((ours, other.clone()))
 }
 
 /// The code of the target that a profile names.
