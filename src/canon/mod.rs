@@ -29,6 +29,11 @@ pub use pause::{Pause, Running};
 pub use role::Role;
 pub use state::Sys;
 
+/// True for a number of a mode of quality ([`Op::PathQuality`]) that ends one: tables number them so that the last digit is 0.
+pub fn ends_quality(mode: f64) -> bool {
+    mode % 10.0 == 0.0
+}
+
 /// Defines an enum whose variants have stable names, and the lookup both ways.
 macro_rules! vocabulary {
     ($(#[$meta:meta])* $type:ident { $($(#[doc = $doc:literal])+ $variant:ident = $name:literal,)* }) => {

@@ -26,7 +26,7 @@ use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// Empty blocks after a limit of one: the control reads two blocks more than it is told.
-const HOLD_BACK: usize = 3;
+pub(super) const HOLD_BACK: usize = 3;
 
 /// Replaces waits and limits that the target has not.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {

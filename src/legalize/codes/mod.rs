@@ -17,6 +17,7 @@ pub(in crate::legalize) mod missing;
 pub(in crate::legalize) mod offset_chains;
 mod outside;
 pub(in crate::legalize) mod pauses;
+pub(in crate::legalize) mod quality_stops;
 pub(in crate::legalize) mod substitutes;
 pub(in crate::legalize) mod through_coolant;
 pub(in crate::legalize) mod waits;

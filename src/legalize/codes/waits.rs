@@ -65,10 +65,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     changed
 }
 
-const SUPPOSED: &str = "waits before places that read where the machine is were written as if this computed code began no cutter compensation: \
+pub(super) const SUPPOSED: &str = "waits before places that read where the machine is, or limits on reading ahead, were written as if this computed code began no cutter compensation: \
      the target takes no limit on reading ahead then";
 
-const SUPPOSED_HELP: &str = "make sure that the code is none of those of cutter compensation";
+pub(super) const SUPPOSED_HELP: &str = "make sure that the code is none of those of cutter compensation";
 
 const OPEN: &str = "no wait could be written here, because cutter compensation may be in force: the target takes no limit on reading \
      ahead then. It may read this before the moves before it are done, and act on an old value";

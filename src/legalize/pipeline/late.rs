@@ -3,6 +3,7 @@
 use super::Pass;
 use crate::legalize::assumptions::facts;
 use crate::legalize::calls::merged;
+use crate::legalize::codes::quality_stops;
 use crate::legalize::cycles::bare_dwells;
 use crate::legalize::expressions::{
     codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
@@ -15,6 +16,14 @@ use crate::legalize::offsets::still_blocks;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed, switches};
 use crate::legalize::registers::{allocate, clear, frames, interface, outside, standing, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
+
+/// Before modes of quality are left out.
+pub(super) const QUALITY_STOPS: Pass = Pass::edits(
+    "quality-stops",
+    "what waits for the end of a mode that reads far ahead is held back",
+    quality_stops::run,
+)
+.when(quality_stops::concerns);
 
 /// Beside the output that is left out.
 pub(super) const SWITCHES: Pass = Pass::rewrites(
