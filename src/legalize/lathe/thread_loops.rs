@@ -6,7 +6,7 @@
 //! its sense is an alarm. A height or a first depth of 0 or less is an alarm, as it is of the cycle. Error bound: a pass that would
 //! end less than 0.00001 above the last depth of the roughing is that one. Counter-example: a start in increments.
 
-mod sums;
+pub(super) mod sums;
 
 use super::cycle_values::Values;
 use super::groove_loops::Groove;

@@ -3,6 +3,7 @@
 use super::walk::{Hole, Refused};
 use crate::canon::{Op, Role, Sys};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
+use crate::legalize::lathe::thread_loops::sums::counts;
 
 /// The most blocks that a repeat becomes.
 const MOST: f64 = 200.0;
@@ -49,7 +50,7 @@ fn plane(hole: &mut Hole<'_>) -> Result<Plane, Refused> {
         (None, true) => Expr::Number(0.0),
         (None, false) => return Ok(None),
     };
-    let step = match (step, hole.side()) {
+    let step = match (length(step)?, hole.side()) {
         // Along X it is a radius, and the place a diameter.
         (step, true) => scaled(step, 2.0),
         (step, false) => step,
@@ -85,6 +86,19 @@ fn plane(hole: &mut Hole<'_>) -> Result<Plane, Refused> {
     Ok(Some(value))
 }
 
+/// A value to work with; a count of increments whose unit is not known is none.
+pub(super) fn length(value: Expr) -> Result<Expr, Refused> {
+    match value {
+        Expr::Increments(0.0) => Ok(Expr::Number(0.0)),
+        value if counts(&value) => Err((COUNT, COUNT_HELP)),
+        value => Ok(value),
+    }
+}
+
+const COUNT: &str = "a hole counts its plane or its depth in increments, and whether inches or millimetres are in force here is not known";
+const COUNT_HELP: &str =
+    "write the unit (G20, G21) at the head of this program, or a decimal point into R and the depth";
+
 fn scaled(value: Expr, by: f64) -> Expr {
     match value.constant() {
         Some(number) => Expr::Number(number * by),
@@ -106,6 +120,7 @@ fn from(base: Expr, step: Expr) -> Expr {
 fn bottom(hole: &mut Hole<'_>, plane: Plane) -> Result<bool, Refused> {
     let (whole, step) = hole.depth();
     if let Some(depth) = hole.nc.word(step).cloned() {
+        let depth = length(depth)?;
         let plane = hole.cycle.plane.map(Expr::Number).or(plane).ok_or((DEPTH, DEPTH_HELP))?;
         let value = match (plane.constant(), depth.constant()) {
             (Some(plane), Some(depth)) => Expr::Number(((plane + depth) * 1e6).round() / 1e6),

@@ -1,5 +1,6 @@
 //! Cycles for a target whose retract planes are ways from where the cycle began, with one code for all drilling along an axis.
 
+use super::by_place::length;
 use super::levels::{lasts, way};
 use super::pecks;
 use super::walk::{Hole, Refused};
@@ -114,7 +115,7 @@ fn plane(hole: &mut Hole<'_>) -> Result<(), Refused> {
         return Ok(());
     };
     let (Some(initial), Some(place)) = (hole.cycle.initial, place.constant()) else {
-        return computed_plane(hole, place);
+        return computed_plane(hole, length(place)?);
     };
     hole.cycle.plane = Some(place);
     let half = if hole.side() { 0.5 } else { 1.0 };
