@@ -83,6 +83,11 @@ There is nothing to do where the program called sets the variable. Where a value
 "The program moves to a place in machine coordinates. The profile of the target's machine says under 'machine_places' where that place lies there, and the move gets those words. It is told once a program. Both programs are compared as if the old one named the new place.
 
 Nothing needs to be done. Whoever wrote the line has looked at the way there: the block before it, and what stands on the table, are the new machine's."
+
+    "0419" DoesNothing Note "a code that does nothing here is left out"
+"The block has a code that changes nothing where it stands: the code of a turning pass without a place (`G90` in the safe line of a lathe), before the first code that says how to move; the end of polar coordinates that no program of the library begins. On the target it would not be sure to do nothing, or the target has no such code. It is told once a program.
+
+Nothing needs to be done."
         }
     };
 }

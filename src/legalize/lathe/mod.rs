@@ -1,5 +1,6 @@
 //! Lathes: cycles in one block or two, contours, holes, increments, machine coordinates, units, and programs of the other kind of machine.
 
+pub mod bare_passes;
 pub mod bare_starts;
 pub mod contour_ends;
 pub mod contour_left;

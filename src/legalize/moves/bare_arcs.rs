@@ -1,17 +1,19 @@
 //! Moves under an arc mode that name neither centre nor radius, or both.
 //!
-//! Law: such a block is what the control makes of it: a straight move, an alarm, the last radius. Where the tables of
-//! both controls give the same answer it stays as it is, for review where no maker confirms it; where they do not,
-//! no other control can be told; lowering spells the move out where its table says what it is.
+//! Law: such a block is what the control makes of it: a straight move, an alarm, the last radius. Where the source goes straight, the block
+//! is written as a straight feed move, and the next arc names its code again. Where the tables of
+//! both controls give the same other answer it stays as it is, for review where no maker confirms it; where they do not,
+//! no other control can be told.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BlockId, Module, Nc};
+use crate::ir::{BlockId, Module, Nc, NcItem, Stmt, StmtKind};
 use crate::legalize::Context;
 
-/// Refuses arcs that say nothing about their curve, and reports those that say it twice.
-pub fn run(module: &Module, context: &mut Context<'_>) {
+/// Writes straight moves out, refuses other arcs that say nothing about their curve, and reports those that say it twice; true if
+/// something was written.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let answer = |control: &crate::dialect::Control| {
         control
             .behaviour(Question::ArcWithoutCentre)
@@ -19,34 +21,36 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             .filter(|value| value != "unknown")
     };
     let (here, there) = (answer(context.source), answer(context.target));
-    let spelled_out = here.as_deref() == Some("straight");
+    let straight = here.as_deref() == Some("straight");
     let facts = context.modal_facts(module);
+    let (mut bare, mut arcs) = (Vec::new(), Vec::new());
     for (index, program) in module.programs.iter().enumerate() {
         for (at, block) in program.blocks.iter().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
-            for stmt in &block.stmts {
+            for (number, stmt) in block.stmts.iter().enumerate() {
                 let nc = stmt.kind.nc();
                 // Words alone leave the motion as it is.
                 if state.may_call() || !nc.is_some_and(Nc::is_words) {
                     state.step(stmt);
                 }
                 let Some(nc) = nc else { continue };
-                if !state.op(Group::Motion).is_some_and(is_arc) {
-                    continue;
-                }
+                let Some(arc) = state.op(Group::Motion).filter(|op| is_arc(*op)) else { continue };
                 let span = stmt.site.span;
                 if is_double(nc) {
                     let what = "an arc with both a centre and a radius: no source says which one counts. \
                                 Leave one of them out";
                     context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
                 }
-                if !is_bare(nc) || drills(nc, state.op(Group::Cycle)) {
+                if drills(nc, state.op(Group::Cycle)) || context.is_faulty(index, span) {
                     continue;
                 }
-                if spelled_out || context.is_faulty(index, span) {
-                    continue;
-                }
-                if here.is_some() && here == there {
+                let place = (index, at, number);
+                if !is_bare(nc) {
+                    let own = nc.ops().any(|op| op.group() == Group::Motion);
+                    arcs.extend((!own && nc.moves() && says_curve(nc)).then_some((place, arc)));
+                } else if straight {
+                    bare.push(place);
+                } else if here.is_some() && here == there {
                     context.rests_on_source(index, span, Question::ArcWithoutCentre);
                     context.rests_on_target(index, span, Question::ArcWithoutCentre);
                 } else {
@@ -57,6 +61,27 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             }
         }
     }
+    let changed = !bare.is_empty();
+    for (index, at, number) in bare {
+        let stmt = &mut module.programs[index].blocks[at].stmts[number];
+        let span = stmt.site.span;
+        name(stmt, Op::Linear);
+        context.add_once(index, STRAIGHT, Diagnostic::new(Code::WrittenOut, span, STRAIGHT));
+    }
+    for ((index, at, number), arc) in arcs.into_iter().filter(|_| changed) {
+        name(&mut module.programs[index].blocks[at].stmts[number], arc);
+    }
+    changed
+}
+
+const STRAIGHT: &str = "a move under an arc code without centre and radius goes straight to its end, as the source's profile says: it is written as a \
+     straight feed move";
+
+/// Names the code of a move in its block.
+fn name(stmt: &mut Stmt, op: Op) {
+    let StmtKind::Nc(nc) = &mut stmt.kind else { return };
+    nc.items.retain(|item| !matches!(item, NcItem::Op(own) if own.group() == Group::Motion));
+    nc.items.insert(0, NcItem::Op(op));
 }
 
 fn is_arc(op: Op) -> bool {
@@ -67,6 +92,10 @@ const CENTRE: [Role; 3] = [Role::ArcI, Role::ArcJ, Role::ArcK];
 
 fn has_centre(nc: &Nc) -> bool {
     CENTRE.iter().any(|role| nc.word(*role).is_some())
+}
+
+fn says_curve(nc: &Nc) -> bool {
+    has_centre(nc) || nc.word(Role::ArcRadius).is_some()
 }
 
 fn is_double(nc: &Nc) -> bool {

@@ -9,6 +9,7 @@
 //! block leaves out was said before; the distance is absolute. Counter-example: `G91 X10.`, whose distance counts from where the
 //! tool is.
 
+mod ends;
 mod known;
 
 use super::increments::parts_of_unit;
@@ -60,6 +61,9 @@ const ENDS: &str =
 
 /// Writes polar coordinates as rectangular ones.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if ends::never_begin(module) {
+        return ends::leave_out(module, context);
+    }
     let facts = context.modal_facts(module);
     let summaries = context.summaries(module);
     let called = context.called(module);

@@ -5,8 +5,8 @@ use crate::canon::{Op, Role};
 use crate::dialect::Machine;
 use crate::legalize::Context;
 use crate::legalize::lathe::{
-    bare_starts, contour_ends, contour_left, contour_nose, contour_types, contours, corners, counts,
-    cycle_words, faces, geometry_rows, held_holes, hole_codes, hole_returns, holes, inch_leads,
+    bare_passes, bare_starts, contour_ends, contour_left, contour_nose, contour_types, contours, corners,
+    counts, cycle_words, faces, geometry_rows, held_holes, hole_codes, hole_returns, holes, inch_leads,
     interpolations, lasting_pecks, lone_passes, modes, none_offsets, pass_run_outs, roughing, run_outs,
     steps, tap_feeds, thread_ways, written_corners, x_counts, zeros,
 };
@@ -59,6 +59,10 @@ pub(super) const INTERPOLATIONS: Pass = Pass::reports(
     interpolations::run,
 )
 .when(interpolations::concerns);
+
+pub(super) const BARE_PASSES: Pass =
+    Pass::edits("bare-passes", "codes of passes that stand without a word fall away", bare_passes::run)
+        .when(bare_passes::concerns);
 
 pub(super) const FACES: Pass =
     Pass::edits("faces", "milling with the C axis on a face is told in the words of the target", faces::run)

@@ -58,11 +58,8 @@ pub const GROUPS: &[Group] = &[
 ];
 
 const FOLD: Pass = Pass::tidies(&Fold, "fold", "values that can be computed here are computed");
-const RETARGET: Pass = Pass::tidies(
-    &Retarget,
-    "retarget",
-    "a value goes straight to the variable that its temporary was copied to",
-);
+const RETARGET: Pass =
+    Pass::tidies(&Retarget, "retarget", "a value goes straight to the variable that its copy went to");
 const BRANCHES: Pass =
     Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps");
 const UNREACHABLE: Pass =
@@ -174,6 +171,7 @@ const STRUCTURE: &[Pass] = &[
 ];
 
 const BLOCKS: &[Pass] = &[
+    super::lathe::BARE_PASSES,
     Pass::edits_some(
         "code-chains",
         "codes by a computed number become comparisons with each number",
@@ -357,6 +355,7 @@ const VARIABLES: &[Pass] = &[
 const CODES: &[Pass] = &[
     Pass::rewrites("formatted", "output in a format is printed without one", formatted::run)
         .when(formatted::concerns),
+    super::late::QUALITY_STOPS,
     Pass::each("substitutes", "operations become near relatives, for review", substitutes::run)
         .when(|c, _| substitutes::concerns(c)),
     Pass::edits(

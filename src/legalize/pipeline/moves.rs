@@ -59,12 +59,12 @@ pub(super) const MOVES: &[Pass] = &[
     )
     .when(rotary_ways::concerns),
     Pass::rewrites("polar-mode", "polar coordinates become rectangular ones", polar_mode::run)
-        .when(|c, context| c.op(Op::PolarOn) && polar_mode::concerns(context.target))
+        .when(|c, context| (c.op(Op::PolarOn) || c.op(Op::PolarOff)) && polar_mode::concerns(context.target))
         .needs(&["modal-calls"]),
     Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
         .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance))
         .needs(&["polar-mode"]),
-    Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
+    Pass::edits("bare-arcs", "arcs without centre and radius that go straight say so", bare_arcs::run)
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
     Pass::reports("off-circle", "checks that arcs end on their circle", off_circle::run)
         .when(|c, context| off_circle::concerns(c, context.source)),
