@@ -86,6 +86,7 @@ pub const TELLS: &[&str] = &[
     "arc.limit",
     "thread.run.out.angle",
     "lathe.feed",
+    "contour.start.checked",
     "roughing.skips.steps",
     "roughing.skips.valleys",
     "paths.wait.first",

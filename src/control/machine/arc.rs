@@ -31,11 +31,13 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         flat.centre(machine, command, trace)?
     } else {
         match machine.rules.no_centre.ask(trace) {
-            NoCentre::Straight if !machine.rules.lathe => {
+            NoCentre::Straight => {
                 machine.feed_to(end, trace);
                 return Ok(());
             }
-            _ => return Err(Stop::alarm(machine.lathe_name("PS0022"), "an arc without centre and radius")),
+            NoCentre::Alarm => {
+                return Err(Stop::alarm(machine.lathe_name("PS0022"), "an arc without centre and radius"));
+            }
         }
     };
     let Some(centre) = centre else {

@@ -7,6 +7,7 @@ use super::way::Point;
 use super::{EXACT, alarm, corner, said};
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::control::machine::arc::{self, Flat};
+use crate::control::machine::rules::NoCentre;
 use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
@@ -177,7 +178,10 @@ impl Reader<'_> {
             let steps = incremental || command.words.iter().any(|(role, _)| role.is_step());
             drawn::line(command, steps, (from, to), moves.last_mut())?
         } else {
-            let arc = if arcs { Some(self.arc(command, from, to, trace)?) } else { None };
+            let straight = arcs
+                && !arc::has_centre(command)
+                && self.machine.rules.no_centre.ask(trace) == NoCentre::Straight;
+            let arc = if arcs && !straight { Some(self.arc(command, from, to, trace)?) } else { None };
             (Piece { from, to, arc, rapid: self.motion == Op::Rapid }, None)
         };
         self.at = piece.to;

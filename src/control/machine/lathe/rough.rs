@@ -198,6 +198,9 @@ fn monotone(
 
 /// R11: nothing lies beyond the start of the cycle; where roughing has no first block, its last block may.
 fn beyond(machine: &Machine, profile: &Profile, (a, axis): (Point, usize), infeed: f64) -> Result<(), Stop> {
+    if !machine.rules.turning.checks_start {
+        return Ok(());
+    }
     let lies = |at: Point| (at[axis] - a[axis]) * infeed < -DEEPER;
     let two_blocks = machine.rules.turning.two_blocks;
     let last = profile.blocks.iter().rfind(|pieces| !pieces.is_empty()).map_or(0, |pieces| pieces.start);

@@ -46,6 +46,8 @@ pub struct Turning {
     /// Depth and retract of roughing.
     pub depth: Option<f64>,
     pub retract: Option<f64>,
+    /// False where a contour may go beyond the start of the cycle (R11).
+    pub checks_start: bool,
     /// Whether roughing leaves out its pass along a contour: of one without valleys, and of one with them (K9).
     pub skips_along: [bool; 2],
     /// How far off the first pass of a repeated contour lies, and how many passes there are.
@@ -140,6 +142,7 @@ impl Turning {
             arc_limit: told("arc.limit").map(|value| value * unit),
             depth: length(Role::CutDepth, &rough),
             retract: length(Role::CutRetract, &rough),
+            checks_start: control.told("contour.start.checked").and_then(|(_, value)| value) != Some("0"),
             skips_along: [false, true].map(|valleys| control.skips_along(valleys).is_some()),
             pattern: [
                 length(Role::PatternX, &[Op::Pattern]),
