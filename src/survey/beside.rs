@@ -41,7 +41,8 @@ pub(super) fn beside(input: &Input, control: &Control, places: &[Span]) -> Vec<B
 }
 
 /// The letters of a block with one code, but for those that mean something beside any code: beside an M code that is an axis,
-/// a feed, a speed and a tool too. Codes that only say how words count, and those of compensation with its own word, may stand there.
+/// a feed, a speed and a tool too. Codes that only say how words count, and those of compensation
+/// and of the speed with their own word, may stand there.
 fn letters(block: &Block, control: &Control) -> Vec<char> {
     let words = || {
         block.items.iter().filter_map(|item| match &item.kind {
@@ -54,17 +55,18 @@ fn letters(block: &Block, control: &Control) -> Vec<char> {
         Some(control.code(word.letter, number.value, &[])?.op.group())
     };
     let is_aside = |word: &&Word| {
-        use Group::{Distance, FeedMode, Plane, RadiusComp, ReturnPlane, Units};
+        use Group::{Distance, FeedMode, Plane, RadiusComp, ReturnPlane, SpeedMode, Units};
         group(word).is_some_and(|group| {
-            matches!(group, Distance | FeedMode | Plane | RadiusComp | ReturnPlane | Units)
+            matches!(group, Distance | FeedMode | Plane | RadiusComp | ReturnPlane | SpeedMode | Units)
         })
     };
     let compensates = words().any(|word| group(&word) == Some(Group::RadiusComp));
     let mut codes =
         words().filter(|word| "GM".contains(word.letter) && !is_aside(word)).map(|word| word.letter);
     let (Some(code), None) = (codes.next(), codes.next()) else { return Vec::new() };
-    let words: Vec<char> =
-        words().map(|word| word.letter).filter(|letter| !(compensates && *letter == 'D')).collect();
+    let counts = words().any(|word| group(&word) == Some(Group::SpeedMode));
+    let taken = |letter: char| compensates && letter == 'D' || counts && letter == 'S';
+    let words: Vec<char> = words().map(|word| word.letter).filter(|letter| !taken(*letter)).collect();
     let lathe = control.machine() == Machine::Lathe;
     let turns = |letter: char| {
         control.profile().axes.iter().flatten().any(|axis| format!("{axis:?}") == letter.to_string())
@@ -152,6 +154,10 @@ mod tests {
         let found = beside(&input, &control, &[Span { start: 4, end: 8 }, Span { start: 32, end: 35 }]);
         let letters: Vec<String> = found.into_iter().map(|one| one.letters.into_iter().collect()).collect();
         assert_eq!(letters, ["PXQF", ""]);
+        let control = Control::from_profile("dialect = \"fanuc\"\nmachine = \"lathe\"\n").unwrap();
+        let bytes = b"G97S100M213P11\n".to_vec();
+        let input = Input { path: "a.nc".into(), name: "a.nc".into(), bytes };
+        assert_eq!(beside(&input, &control, &[Span { start: 7, end: 11 }])[0].letters, ['P']);
     }
 
     /// Two codes of a profile that switch an output each, and one of the table that has a word for it.

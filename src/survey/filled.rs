@@ -10,9 +10,9 @@ use super::start::lines as lines_of_start;
 use super::unseen;
 use super::words::with_words;
 use super::{AskedSetting, AskedStart, AskedWord, Survey};
-use crate::dialect::{CODE_SYSTEM, Control, Profile, Settled, Side};
+use crate::dialect::{CODE_SYSTEM, Control, Profile, Setting, Settled, Side};
 use crate::report::{Fact, Questions};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// What a line begins with that is a question.
@@ -194,8 +194,16 @@ fn about(fact: &Fact<'_>, control: &Control) -> String {
     let title = format!("{}: ", control.dialect().title);
     let said = asked.text.split_once(&title).map_or(asked.text, |(_, said)| said);
     // Which value of a parameter is which stands in its own row.
-    let said = setting_of(fact, control).map_or(said, |row| row.meaning.as_str());
+    // A setting that answers several questions is about this one here.
+    let said = setting_of(fact, control)
+        .filter(|row| answers(row).len() < 2)
+        .map_or(said, |row| row.meaning.as_str());
     format!("{} ({})", short(&plain(said)), counted(asked.programs, &asked.places))
+}
+
+/// The questions that a setting answers.
+fn answers(row: &Setting) -> BTreeSet<&str> {
+    row.sets.values().flatten().map(|(target, _)| target.as_str()).collect()
 }
 
 /// Text that stays on its line, and is a comment.
