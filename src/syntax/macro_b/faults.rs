@@ -70,6 +70,26 @@ fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxErr
         Some(b'(') if matches!(last, b'+' | b'-' | b'*' | b'/' | b'=' | b'[' | b',') => {
             fault(Code::RoundBrackets, one, "round brackets hold a comment: write expressions in `[` and `]`")
         }
+        Some(b'.') if in_number(before) => {
+            fault(Code::Unreadable, one, "this number has a decimal point before: take one of the two out")
+        }
+        None if last == b':' => {
+            let at = block.start + before.len() as u32;
+            let message = "a colon does not end a block: write `;`, or nothing";
+            fault(Code::Unreadable, Span::new(at - 1, at), message)
+        }
+        Some(b'O' | b'o')
+            if last.is_ascii_alphabetic()
+                && lone_letter(before)
+                && expects(Lex::Number)
+                && next.get(1).is_none_or(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b' ')) =>
+        {
+            let message = format!(
+                "the letter O stands after {}, where a number begins: write a zero",
+                char::from(last)
+            );
+            fault(Code::WordWithoutValue, one, message)
+        }
         _ if last.is_ascii_alphabetic() && lone_letter(before) && expects(Lex::Number) => {
             let end = block.start + before.len() as u32;
             let letter = Span::new(end - 1, end);
@@ -79,6 +99,14 @@ fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxErr
         }
         _ => fault(Code::Unreadable, one, expectation(next, &stop.expected)),
     }
+}
+
+/// True where a number with a decimal point stands right before.
+fn in_number(before: &[u8]) -> bool {
+    let digits = |bytes: &[u8]| bytes.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
+    let whole = before.len() - digits(before);
+    let point = whole.checked_sub(1).filter(|at| before[*at] == b'.');
+    point.is_some_and(|at| digits(&before[..at]) > 0 || whole < before.len())
 }
 
 /// The fault of a block after a `;`: text there is a remark more often than a block.

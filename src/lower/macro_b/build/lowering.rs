@@ -64,6 +64,8 @@ pub struct Lowering<'a> {
     pub is_over: bool,
     /// True from a block on that begins a table of data, until the code that ends it.
     pub in_data: bool,
+    /// The number of the block after the comment that goes on over lines; 0 before the first.
+    pub remark_end: usize,
     /// True where the block at hand has axis words beside a code that may take words.
     pub moves: bool,
 }
@@ -157,6 +159,7 @@ impl<'a> Lowering<'a> {
             inverse: false,
             is_over: false,
             in_data: false,
+            remark_end: 0,
             moves: false,
         }
     }

@@ -134,6 +134,12 @@ impl<'a> Lowering<'a> {
                 self.findings.not_understood(span, what);
             }
             (None, true) => self.unknown_behaviour(Question::ThenWords, span),
+            // A jump is what the condition takes, and no THEN is missing before it.
+            (_, false) if !then && body.iter().any(|item| matches!(item.kind, ItemKind::Goto(_))) => {
+                let message = "a statement stands beside the jump of a condition: no source says whether it is done, and when";
+                let told = Diagnostic::new(Code::Conditional, span, message);
+                self.findings.add(told.with_help("give it a block of its own"));
+            }
             (_, false) if !then => {
                 let message = "THEN is missing before the statement";
                 self.findings.add(Diagnostic::new(Code::ThenMissing, span, message));

@@ -1,5 +1,6 @@
 //! One block: its label, its block skip, its statements in order.
 
+use super::remarks;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Question;
@@ -11,6 +12,9 @@ use crate::text::Span;
 use smallvec::SmallVec;
 
 const LONG_NUMBERS: &str = "if its numbers have eight digits, which is an option, write program_digits = \"8\" under [settings] of its profile";
+
+const REMARK: &str = "this comment is not closed on its line, and goes on over the next lines: no control takes that. Write each line of it in \
+     round brackets";
 
 const NEVER_RUN: &str = "this block cannot be read, and the machine never gets to it: it is left out";
 
@@ -129,9 +133,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn block(&mut self, block: &'a Block, is_head: bool) {
-        for error in &block.errors {
-            self.findings.add(Diagnostic::new(error.code, error.span, error.message.clone()));
-        }
+        self.tell_errors(block);
         if let Some((number, id)) = self.labels.of_block(self.at) {
             self.builder.start(id);
             self.builder.label(Label::Number(number));
@@ -172,6 +174,23 @@ impl<'a> Lowering<'a> {
             self.findings.not_understood(site.span, "the sequence number must stand first in its block");
         }
         if contents.skips { self.skipping(block, first, site) } else { self.items(&block.items, &site) }
+    }
+
+    /// Tells what cannot be read of a block; of a comment that goes on over lines once.
+    fn tell_errors(&mut self, block: &'a Block) {
+        if self.at < self.remark_end && !block.errors.is_empty() {
+            return;
+        }
+        let rest = self.parsed.blocks.get(self.at..).unwrap_or_default();
+        let end = remarks::begins(block).then(|| remarks::ends_at(rest, self.source)).flatten();
+        self.remark_end = self.remark_end.max(end.map_or(0, |more| self.at + more + 1));
+        for error in &block.errors {
+            let message = match end {
+                Some(_) if error.code == Code::UnclosedComment => REMARK.into(),
+                _ => error.message.clone(),
+            };
+            self.findings.add(Diagnostic::new(error.code, error.span, message));
+        }
     }
 
     /// A program number of more digits than this machine's have: its calls are read otherwise where these have as many.
