@@ -29,7 +29,7 @@ use after::After;
 pub(in crate::legalize) use kinds::pause_of;
 use kinds::{ends_run, has_messages, restarts, stops_in, tool_after, written};
 pub(in crate::legalize) use related::related;
-use related::spread;
+use related::{spread, started};
 use std::collections::BTreeMap;
 use touched::{Touched, Touches};
 
@@ -184,16 +184,6 @@ fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>, again: &[(usize,
         out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
     }
     block.stmts = out;
-}
-
-/// For each program, what it, those that it calls, or those that call it start.
-fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
-    let starts = |index| {
-        Running::ALL.map(|running| context.may_concern(index, |features| starts_in(features, running)))
-    };
-    let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(starts).collect();
-    spread(&mut found, module, context);
-    found
 }
 
 /// Lays down a stop, and before it what ends what is running; the words beside the stop come first.

@@ -1,5 +1,7 @@
 //! What holds of a program, of those that it calls, and of those that call it.
 
+use super::starts_in;
+use crate::canon::Running;
 use crate::ir::Module;
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::dataflow::Lattice;
@@ -31,4 +33,14 @@ pub(super) fn spread(found: &mut [[bool; 2]], module: &Module, context: &Context
     };
     graph.bottom_up(found, either);
     graph.top_down(found, either);
+}
+
+/// For each program, what it, those that it calls, or those that call it start.
+pub(super) fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
+    let starts = |index| {
+        Running::ALL.map(|running| context.may_concern(index, |features| starts_in(features, running)))
+    };
+    let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(starts).collect();
+    spread(&mut found, module, context);
+    found
 }
