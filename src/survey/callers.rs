@@ -117,11 +117,14 @@ pub(super) fn by_parameter(codes: &mut Vec<AskedCode>, source: &Control) -> Vec<
     stated.into_iter().chain(open).collect()
 }
 
-/// The section of a profile that has a parameter.
+/// The section of a profile that has a parameter which gives a program its code.
 fn setting(source: &Control, parameter: u32) -> Option<&'static str> {
-    let sections = [("parameter.", "parameters"), ("setting.", "settings")];
-    let mut sections = sections.into_iter();
-    sections.find_map(|(stem, section)| source.setting_row(&format!("{stem}{parameter}")).map(|_| section))
+    source.dialect().settings.iter().filter(|row| row.alias.is_some()).find_map(|row| {
+        let (stem, first) = row.name.rsplit_once('.')?;
+        let first: u32 = first.parse().ok()?;
+        let is_it = (first..=row.through.unwrap_or(first)).contains(&parameter);
+        is_it.then_some(if stem == "parameter" { "parameters" } else { "settings" })
+    })
 }
 
 fn asked(section: &'static str, parameter: u32, programs: usize, places: Vec<String>) -> AskedSetting {
