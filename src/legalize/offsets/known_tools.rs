@@ -3,7 +3,7 @@
 //! Law: a tool word that changes nothing while its tool is in the spindle is a comparison and a change. After a change to tool n,
 //! and past such a comparison with n, tool n is in the spindle: the next one is decided, and what reads that tool reads n. Side conditions: nothing between may
 //! change the tool, as a stop of the program, where the operator may, a computed code, or what the library
-//! does not have; comparisons that a person wrote stay, for a tool may stand for another of its group.
+//! does not have; a program that returns begins with no tool known; comparisons that a person wrote stay, for a tool may stand for another of its group.
 //! Counter-example: `T1`, `M0`, `T1`, where the operator puts another tool in at the stop.
 
 use crate::canon::{Op, Role, Sys};
@@ -11,11 +11,12 @@ use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::analysis::{Cfg, calls_of};
 use crate::ir::{
-    Block, BlockId, Callee, Cond, Expr, Module, Nc, NcItem, Program, Relation, SourceInfo, Stmt, StmtKind,
-    TermKind,
+    Block, BlockId, Call, Callee, Cond, Expr, Module, Nc, NcItem, Program, Relation, SourceInfo, Stmt,
+    StmtKind, TermKind,
 };
 use crate::legalize::Context;
-use std::collections::BTreeMap;
+use crate::syntax::ProgramName;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A block of a program.
 type Place = (usize, BlockId);
@@ -70,14 +71,16 @@ pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
             }
         }
     }
-    let spindles = OverCalls::of(module, &Tools { past: &past });
+    let called = module.programs.iter().map(Program::returns).collect();
+    let tools = Tools { past, called, keep: keeping(module) };
+    let spindles = OverCalls::of(module, &tools);
     let mut changed = false;
     for (place, change) in found {
         let Some(known) = spindles.at(place.0, place.1) else { continue };
         let Some(program) = module.programs.get_mut(place.0) else { continue };
         let Some(block) = program.blocks.get_mut(place.1.index()) else { continue };
         let mut spindle = *known;
-        Tools { past: &past }.stmts(place, block, &mut spindle);
+        tools.stmts(place, block, &mut spindle);
         if let Some(tool) = spindle.0 {
             let is_it = tool == change.tool;
             block.term.kind = TermKind::Jump(if is_it { change.past } else { change.block });
@@ -87,16 +90,16 @@ pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
             changed = true;
         }
     }
-    read(module, &spindles, &Tools { past: &past }) || changed
+    read(module, &spindles, &tools) || changed
 }
 
 /// Puts the tool where statements read it; true if there were any.
-fn read(module: &mut Module, spindles: &OverCalls<Spindle>, tools: &Tools<'_>) -> bool {
+fn read(module: &mut Module, spindles: &OverCalls<Spindle>, tools: &Tools) -> bool {
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (id, block) in program.ids().zip(&mut program.blocks) {
-            let past = tools.past.get(&(index, id)).map(|tool| Spindle(Some(*tool)));
-            let Some(mut spindle) = past.or(spindles.at(index, id).copied()) else { continue };
+            let Some(mut spindle) = spindles.at(index, id).copied() else { continue };
+            tools.enter((index, id), &mut spindle);
             for stmt in &mut block.stmts {
                 if let Some(tool) = spindle.0 {
                     stmt.kind.exprs_mut(&mut |e| {
@@ -158,12 +161,26 @@ fn change(program: &Program, id: BlockId) -> Option<Change> {
 }
 
 /// What is known of the tool in the spindle.
-struct Tools<'p> {
+struct Tools {
     /// The blocks past a change, with its tool.
-    past: &'p BTreeMap<Place, f64>,
+    past: BTreeMap<Place, f64>,
+    /// By program, whether it returns: something else than the library may call it too.
+    called: Vec<bool>,
+    /// The programs that leave the tool alone, with all that they call.
+    keep: BTreeSet<ProgramName>,
 }
 
-impl Follow for Tools<'_> {
+impl Tools {
+    fn enter(&self, place: Place, spindle: &mut Spindle) {
+        if let Some(tool) = self.past.get(&place) {
+            *spindle = Spindle(Some(*tool));
+        } else if place.1 == BlockId(0) && self.called.get(place.0) == Some(&true) {
+            *spindle = Spindle(None);
+        }
+    }
+}
+
+impl Follow for Tools {
     type Known = Spindle;
 
     fn outside(&self, _: usize) -> Spindle {
@@ -171,14 +188,45 @@ impl Follow for Tools<'_> {
     }
 
     fn stmts(&self, place: Place, block: &Block, spindle: &mut Spindle) {
-        if let Some(tool) = self.past.get(&place) {
-            *spindle = Spindle(Some(*tool));
-        }
+        self.enter(place, spindle);
         block.stmts.iter().for_each(|stmt| spindle.step(stmt));
+    }
+
+    fn returned(&self, _: usize, call: &Call, before: &Spindle, after: &mut Spindle) {
+        if matches!(&call.callee, Callee::Program(name) if self.keep.contains(name)) {
+            *after = *before;
+        }
     }
 
     fn lose(&self, spindle: &mut Spindle) {
         spindle.0 = None;
+    }
+}
+
+/// The programs that leave the tool alone, with all that they call.
+fn keeping(module: &Module) -> BTreeSet<ProgramName> {
+    let mut keep: BTreeSet<ProgramName> = module.programs.iter().filter_map(|p| p.name.clone()).collect();
+    loop {
+        let leaves = |stmt: &Stmt| {
+            let mut spindle = Spindle(Some(0.0));
+            spindle.step(stmt);
+            spindle.0 == Some(0.0)
+        };
+        let stays = |call: &Call| match &call.callee {
+            Callee::Program(name) => keep.contains(name),
+            Callee::Block(_) => true,
+            Callee::Computed(_) | Callee::Cycle(_) => false,
+        };
+        let changes = |program: &&Program| {
+            let blocks = &program.blocks;
+            !blocks.iter().all(|block| block.stmts.iter().all(leaves) && calls_of(block).all(stays))
+        };
+        let others: Vec<_> = module.programs.iter().filter(changes).filter_map(|p| p.name.clone()).collect();
+        let before = keep.len();
+        others.iter().for_each(|name| _ = keep.remove(name));
+        if keep.len() == before {
+            return keep;
+        }
     }
 }
 
