@@ -22,8 +22,9 @@ const MAY_BE_NONE: [&str; 1] = ["brackets"];
 /// The limit that says how many characters a line may have.
 const LINE: &str = "line.length";
 
-/// How many turns a minute the spindle makes at the most: no table has it.
+/// How many turns a minute the spindle makes at the most, and how many tools the magazine holds: no table has them.
 const SPEED: &str = "spindle.speed";
+const TOOLS: &str = "tools";
 
 /// No machine takes shorter lines.
 const LEAST_LINE: u32 = 40;
@@ -77,7 +78,7 @@ impl Overlay {
                 }
                 continue;
             }
-            if name == SPEED && most > 0 {
+            if (name == SPEED || name == TOOLS) && most > 0 {
                 let origin = Origin { mark: Mark::Confirmed, ..Origin::of_profile(None) };
                 dialect.limits.push(Limit { name, max: Some(most), alarm: None, origin });
                 continue;
@@ -94,14 +95,20 @@ impl Overlay {
                     row.origin.source = "machine profile".into();
                 }
                 None => {
-                    if name == SPEED {
-                        let help = "write how many turns a minute it makes, or remove the line".to_owned();
-                        let message = format!("{name} = 0: the spindle would not turn");
-                        self.fault(&format!("limits:{name}"), message, help);
+                    let needed = match name.as_str() {
+                        SPEED => Some(("how many turns a minute it makes", "the spindle would not turn")),
+                        TOOLS => {
+                            Some(("how many tools its magazine holds", "the machine would have no tool"))
+                        }
+                        _ => None,
+                    };
+                    if let Some((what, why)) = needed {
+                        let help = format!("write {what}, or remove the line");
+                        self.fault(&format!("limits:{name}"), format!("{name} = 0: {why}"), help);
                         continue;
                     }
                     let mut names: Vec<&str> = dialect.limits.iter().map(|row| row.name.as_str()).collect();
-                    names.push(SPEED);
+                    names.extend([SPEED, TOOLS]);
                     let help = format!("its limits are {}", names.join(", "));
                     self.fault(&format!("limits:{name}"), format!("the table has no limit '{name}'"), help);
                 }

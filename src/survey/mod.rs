@@ -147,7 +147,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let digits =
         target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
     let far_places = target.map_or_else(Vec::new, |target| far_places::named(target, &library.module));
-    let speeds = target.and_then(|target| speeds::asked(&places, target, &library.module));
+    let speeds = target.map_or_else(Vec::new, |target| speeds::asked(&places, target, &library.module));
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),

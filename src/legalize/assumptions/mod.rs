@@ -12,3 +12,4 @@ pub(in crate::legalize) mod runtime;
 pub(in crate::legalize) mod shop;
 pub(in crate::legalize) mod standing;
 pub(in crate::legalize) mod top_speed;
+pub(in crate::legalize) mod top_tool;

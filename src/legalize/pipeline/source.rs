@@ -4,7 +4,9 @@ use super::Pass;
 use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LASTING_PECKS, LONE_PASSES};
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::canon::Op;
-use crate::legalize::assumptions::{changes, cutter_tables, facts, machine_places, runtime, shop, top_speed};
+use crate::legalize::assumptions::{
+    changes, cutter_tables, facts, machine_places, runtime, shop, top_speed, top_tool,
+};
 use crate::legalize::calls::parts;
 use crate::legalize::cycles::{
     cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, spindle_starts,
@@ -135,6 +137,8 @@ pub(super) const SOURCE: &[Pass] = &[
     .when(cutter_tables::concerns),
     Pass::reports("top-speed", "tells of speeds that the target's spindle does not turn", top_speed::run)
         .when(top_speed::concerns),
+    Pass::reports("top-tool", "tells of tools that the target's magazine does not hold", top_tool::run)
+        .when(top_tool::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
         .when(changes::concerns),
     Pass::edits(
