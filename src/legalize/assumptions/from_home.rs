@@ -41,8 +41,8 @@ impl FromHome {
         })
     }
 
-    /// Takes a statement's effect; `state` is what is in force in it.
-    pub fn step(&mut self, stmt: &Stmt, state: &Modal) {
+    /// Takes a statement's effect; `state` is what is in force in it, and `modes` is true where a code makes plain words increments.
+    pub fn step(&mut self, stmt: &Stmt, state: &Modal, modes: bool) {
         let Some(nc) = stmt.kind.nc().filter(|nc| nc.names_axis() || goes_home(nc)) else { return };
         let before = *self;
         let words = || {
@@ -58,7 +58,7 @@ impl FromHome {
             self.0 |= if named == 0 { u16::MAX } else { named };
         } else if nc.moves() {
             let once = nc.has(Op::MachineOnce);
-            let steps = !once && state.op(Group::Distance) != Some(Op::Absolute);
+            let steps = modes && !once && state.op(Group::Distance) != Some(Op::Absolute);
             for (bit, role, value) in words() {
                 // Zero of the machine is its home; other places are asked of their own.
                 let home = once && value.constant() == Some(0.0);
@@ -86,7 +86,11 @@ fn goes_home(nc: &Nc) -> bool {
 }
 
 /// What is placed from home at the start of every block of a library.
-pub struct Homes(Vec<States<FromHome>>);
+pub struct Homes {
+    states: Vec<States<FromHome>>,
+    /// True where a code of the library makes plain words increments: on some lathes none does, and letters of their own are.
+    pub modes: bool,
+}
 
 impl Homes {
     /// Follows it through a library.
@@ -95,12 +99,15 @@ impl Homes {
         let names = programs.clone().filter_map(|(index, program)| Some((program.name.as_ref()?, index)));
         let names = names.collect();
         let graphs: Vec<Cfg> = module.programs.iter().map(Cfg::of).collect();
-        let mut found = Self(vec![States::default(); graphs.len()]);
+        let mut stmts =
+            module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+        let modes = stmts.any(|stmt| stmt.kind.has_op(Op::Incremental));
+        let mut found = Self { states: vec![States::default(); graphs.len()], modes };
         let mut ends = vec![Ends::default(); graphs.len()];
         let mut changed = true;
         while std::mem::take(&mut changed) {
             for (index, program) in programs.clone() {
-                let rules = Rules { index, facts, names: &names, ends: &ends };
+                let rules = Rules { index, facts, names: &names, ends: &ends, modes };
                 let states = solve(&rules, program, &graphs[index]);
                 let (mut calls, mut own) = (Vec::new(), ends[index]);
                 for (id, block) in program.ids().zip(&program.blocks) {
@@ -120,7 +127,7 @@ impl Homes {
                 for (callee, state) in calls {
                     changed |= ends[callee].entry.join(&state);
                 }
-                found.0[index] = states;
+                found.states[index] = states;
             }
         }
         found
@@ -128,7 +135,7 @@ impl Homes {
 
     /// What is placed from home at the start of a block.
     pub fn at(&self, program: usize, block: BlockId) -> FromHome {
-        self.0.get(program).and_then(|states| states.at(block)).copied().unwrap_or_default()
+        self.states.get(program).and_then(|states| states.at(block)).copied().unwrap_or_default()
     }
 }
 
@@ -158,6 +165,7 @@ struct Rules<'r> {
     facts: &'r ModalFacts,
     names: &'r HashMap<&'r ProgramName, usize>,
     ends: &'r [Ends],
+    modes: bool,
 }
 
 impl Rules<'_> {
@@ -175,7 +183,7 @@ impl Rules<'_> {
         for stmt in &block.stmts {
             modal.step(stmt);
             if matches!(stmt.kind, StmtKind::Nc(_)) {
-                state.step(stmt, &modal);
+                state.step(stmt, &modal, self.modes);
             }
         }
     }

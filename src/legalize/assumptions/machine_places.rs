@@ -64,11 +64,11 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
             let mut home = homes.as_ref().map(|homes| homes.at(index, id));
             for (at, stmt) in block.stmts.iter().enumerate() {
                 state.step(stmt);
-                if let Some(home) = &mut home {
+                if let (Some(home), Some(homes)) = (&mut home, &homes) {
                     if moves.as_deref() != Some("same") && steps_from(*home, stmt, &state, &numbers) {
                         tell((index, stmt.site.span), (MOVES, moves.as_deref()), STEPPED, context);
                     }
-                    home.step(stmt, &state);
+                    home.step(stmt, &state, homes.modes);
                 }
                 if moved.contains(&(index, id, at)) {
                     continue;
