@@ -13,24 +13,28 @@
 
 mod after;
 mod kinds;
+mod lay;
 mod lost;
 mod related;
+mod switched;
 mod touched;
 
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Ends;
 use crate::ir::analysis::over_calls::OverCalls;
-use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
+use crate::ir::{Block, BlockId, Module, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use after::After;
 pub(in crate::legalize) use kinds::pause_of;
 use kinds::{ends_run, has_messages, restarts, stops_in, tool_after, written};
+use lay::{Again, lay};
 pub(in crate::legalize) use related::related;
 use related::{spread, started};
 use std::collections::BTreeMap;
+use switched::Switched;
 use touched::{Touched, Touches};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
@@ -95,7 +99,7 @@ struct Stop {
     /// By the number of a statement, past the last for the end of the block.
     before: BTreeMap<usize, Vec<Op>>,
     /// What is started again, by the number of the statement that it comes after.
-    again: Vec<(usize, Op)>,
+    again: Vec<Again>,
 }
 
 /// The blocks in which something has to be ended.
@@ -147,6 +151,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 lost: lost[index],
                 after: &after,
                 again: Vec::new(),
+                switched: Switched::default(),
                 tool: None,
                 touched: touches.at(index, id).copied().unwrap_or_default(),
                 stood_in: false,
@@ -161,54 +166,6 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
         }
     }
     found
-}
-
-/// Puts what ends something before the stops of a block, and after them what is started again.
-fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>, again: &[(usize, Op)]) {
-    let more = before.values().map(Vec::len).sum::<usize>() + before.len() + again.len();
-    let mut out = Stmts::with_capacity(block.stmts.len() + more);
-    for (at, stmt) in std::mem::take(&mut block.stmts).into_iter().enumerate() {
-        let (span, skip) = (stmt.site.span, stmt.site.skip);
-        match before.remove(&at) {
-            Some(before) => ended(before, stmt, &mut out),
-            None => out.push(stmt),
-        }
-        for (_, op) in again.iter().filter(|(stop, _)| *stop == at) {
-            let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(*op)] });
-            out.push(Stmt { kind, site: SourceInfo { span, skip, ..SourceInfo::default() } });
-        }
-    }
-    let span = block.term.site.span;
-    for op in before.into_values().flatten() {
-        let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
-        out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
-    }
-    block.stmts = out;
-}
-
-/// Lays down a stop, and before it what ends what is running; the words beside the stop come first.
-fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Stmts) {
-    let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
-    let nc = |items: Vec<NcItem>| StmtKind::Nc(Nc { items });
-    if let StmtKind::Nc(block) = &mut stmt.kind
-        && !block.has(Op::ToolChange)
-    {
-        let (stop, words) = std::mem::take(&mut block.items)
-            .into_iter()
-            .partition(|item| matches!(item, NcItem::Op(Op::Stop | Op::OptionalStop)));
-        block.items = stop;
-        if !words.is_empty() {
-            out.push(Stmt {
-                kind: nc(words),
-                site: SourceInfo { sequence: stmt.site.sequence.take().into(), ..site.clone() },
-            });
-        }
-    }
-    for op in before {
-        let sequence = stmt.site.sequence.take().into();
-        out.push(Stmt { kind: nc(vec![NcItem::Op(op)]), site: SourceInfo { sequence, ..site.clone() } });
-    }
-    out.push(stmt);
 }
 
 /// A place in a program.
@@ -231,7 +188,8 @@ struct Place<'p> {
     lost: [bool; 2],
     after: &'p After<'p>,
     /// What the target ends at the stop and the source does not: it is started again after it.
-    again: Vec<(usize, Op)>,
+    again: Vec<Again>,
+    switched: Switched,
     /// The tool that the block put into the spindle last.
     tool: Option<f64>,
     /// A builder's code since the program last said what the spindle does.
@@ -250,6 +208,7 @@ impl Place<'_> {
         let mut found = BTreeMap::new();
         for (number, stmt) in block.stmts.iter().enumerate() {
             let pause = pause_of(&stmt.kind);
+            self.switched.step(stmt, &self.state);
             self.state.step(stmt);
             self.touched.step(stmt, [context.source, context.target]);
             let before = self.tool;
@@ -360,13 +319,18 @@ impl Place<'_> {
             let sure = asks && there.known && there.answer == Some(true);
             let again = self.state.op(ends(running).0).filter(|op| starts(running).contains(op));
             let known = sure && here.answer != Some(true) && !self.lost[running as usize];
+            // Where the switch is on, it stands on both.
+            let shows = self.after.shows(self.index, self.id, number, running);
+            let known_under = known && again.is_none() && !self.skipped && shows;
+            if let Some((op, level)) = self.switched.of(running).filter(|_| known_under) {
+                self.again.push((number - 1, op, Some(level)));
+                continue;
+            }
             match again.filter(|_| known) {
-                Some(op) if self.after.shows(self.index, self.id, number, running) => {
-                    match self.touched.0.filter(|_| running == Running::Spindle) {
-                        Some(act) => touched::tell(act, self.index, span, context),
-                        None => self.again.push((number - 1, op)),
-                    }
-                }
+                Some(op) if shows => match self.touched.0.filter(|_| running == Running::Spindle) {
+                    Some(act) => touched::tell(act, self.index, span, context),
+                    None => self.again.push((number - 1, op, None)),
+                },
                 None if here.answer == Some(false) && there.answer != Some(false) && matters => {
                     self.tell(pause, there, span, context);
                 }
