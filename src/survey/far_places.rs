@@ -101,7 +101,7 @@ mod tests {
                 input("b.nc", &format!("O2\n{head}G53 X-11. Y-13.5\nG53 Y-2.\nG53 X#500\nM30\n")),
             ];
             let text = filled(&survey(&inputs, &source, Some(&there)), Side::Target, Some(&target)).unwrap();
-            text.lines().filter(|line| line.contains(" as ")).map(str::to_owned).collect::<Vec<_>>()
+            text.lines().filter(|line| line.starts_with("#:     ")).map(str::to_owned).collect::<Vec<_>>()
         };
         let both = ["#:     \"X-11. Y-13.5 as X Y\", # 2 programs", "#:     \"Y-2. as Y\", # 1 program"]
             .map(str::to_owned);

@@ -228,12 +228,7 @@ impl Rules {
         let after = |question| fact(control, question, length_after, LengthAfter::Kept);
         Self {
             late: Auxiliary::ALL.map(late),
-            sets: (control.profile().site.iter())
-                .filter_map(|site| {
-                    let sets = site.sets.values().map(|name| Act::named(name).number() as u32);
-                    Some((control.act_of(site)?, sets.collect()))
-                })
-                .collect(),
+            sets: super::spoken::sets(control),
             speaks: super::spoken::all(control),
             ends: Pause::ALL.map(|pause| {
                 Running::ALL.map(|running| {

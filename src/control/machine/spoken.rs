@@ -3,7 +3,7 @@
 use super::{Command, Machine};
 use crate::canon::{Act, Op, Role};
 use crate::control::trace::{EventKind, Trace};
-use crate::dialect::Control;
+use crate::dialect::{Control, SiteCode};
 use std::collections::BTreeMap;
 
 /// What such codes go by.
@@ -69,4 +69,13 @@ pub(super) fn again(machine: &Machine, command: &Command, trace: &mut Trace) {
 pub(super) fn all(control: &Control) -> BTreeMap<Act, Role> {
     let sites = control.profile().site.iter().filter_map(|site| control.act_of(site));
     sites.filter_map(|act| Some((act, control.speed_word(act)?))).collect()
+}
+
+/// The variables that builders' codes set, by the numbers of their names.
+pub(super) fn sets(control: &Control) -> BTreeMap<Act, Vec<u32>> {
+    let of = |site: &SiteCode| {
+        let sets = site.sets.values().map(|name| Act::named(name).number() as u32);
+        Some((control.act_of(site)?, sets.collect()))
+    };
+    control.profile().site.iter().filter_map(of).collect()
 }

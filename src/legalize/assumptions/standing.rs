@@ -18,13 +18,6 @@ pub(in crate::legalize) struct Spindle {
     pub lost: bool,
 }
 
-impl Spindle {
-    /// True if it stands whichever way a run came.
-    pub fn stands_for_certain(self) -> bool {
-        self.stands && !self.otherwise && !self.lost
-    }
-}
-
 impl Lattice for Spindle {
     fn join(&mut self, other: &Self) -> bool {
         let joined = Self {

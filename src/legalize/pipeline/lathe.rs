@@ -154,7 +154,7 @@ pub(super) const LATHE: &[Pass] = &[
     .when(none_offsets::concerns),
     Pass::reports(
         "geometry-rows",
-        "reports T words of two numbers, where the two lathes do not take the geometry from the same row",
+        "reports T words of two numbers, if the two lathes take the geometry by another one",
         geometry_rows::run,
     )
     .when(geometry_rows::concerns),
