@@ -13,3 +13,4 @@ pub(in crate::legalize) mod shop;
 pub(in crate::legalize) mod standing;
 pub(in crate::legalize) mod top_speed;
 pub(in crate::legalize) mod top_tool;
+pub(in crate::legalize) mod unchanged_tools;
