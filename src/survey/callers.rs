@@ -143,8 +143,12 @@ fn asked(section: &'static str, parameter: u32, programs: usize, places: Vec<Str
     }
 }
 
+/// The letter of codes that may call one program, the programs that have them, and the first places.
+type Callers = (char, BTreeSet<usize>, Vec<String>);
+
+/// The parameters of which one answer says which of many codes calls a program; those codes ask it no more.
 fn by_number(codes: &mut [AskedCode], source: &Control) -> Vec<AskedSetting> {
-    let mut found: BTreeMap<(u32, u32), (char, BTreeSet<usize>, Vec<String>)> = BTreeMap::new();
+    let mut found: BTreeMap<(u32, u32), Callers> = BTreeMap::new();
     let may = |code: &AskedCode| !code.calls.is_empty() && !is_call(&code.calls, &code.code);
     let concerned: Vec<&AskedCode> = codes.iter().filter(|code| may(code)).collect();
     for code in &concerned {

@@ -40,13 +40,16 @@ pub(super) fn asked(places: &Places<'_>, target: &Control, module: &Module) -> V
     all.into_iter().flatten().collect()
 }
 
+/// The number of a block that the limit is of, where it is more than is usual.
+type Named<'n> = &'n dyn Fn(&Nc) -> Option<f64>;
+
 /// A limit, where the profile does not say it and programs name more than is usual.
 fn one(
     places: &Places<'_>,
     target: &Control,
     module: &Module,
     limit: &str,
-    (named, meaning): (&dyn Fn(&Nc) -> Option<f64>, &str),
+    (named, meaning): (Named<'_>, &str),
 ) -> Option<AskedSetting> {
     if target.limit(limit).is_some() {
         return None;
