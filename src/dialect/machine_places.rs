@@ -1,10 +1,10 @@
 //! Places in machine coordinates of the machine that programs come from, and where each lies on this one.
 //!
 //! A profile says it as `machine_places = ["X-11. Z-13. as X-300. Z-200."]`: the words of a move in machine coordinates as the programs
-//! have them, and the words that the programs get. Both are in the unit of the programs.
+//! have them, and the words that the programs get. Both are in the unit that `units` of the profile says.
 
-use super::Control;
 use super::overlay::Overlay;
+use super::{Control, Units};
 use crate::canon::Role;
 
 /// What stands between a place of the source and its place here.
@@ -15,18 +15,24 @@ pub type Place = Vec<(Role, f64)>;
 
 /// Places of the source, and where each lies here.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct MachinePlaces(Vec<(Place, Place)>);
+pub struct MachinePlaces {
+    rows: Vec<(Place, Place)>,
+    /// True where the numbers are inches, false where they are millimetres; none if the profile names no unit.
+    inch: Option<bool>,
+}
 
 impl MachinePlaces {
-    /// Where a place of the source lies here: of a move of these axes, and no others, to these numbers.
-    pub fn of(&self, place: &[(Role, f64)]) -> Option<&[(Role, f64)]> {
-        let (_, here) = self.0.iter().find(|(there, _)| is_same(there, place))?;
+    /// Where a place of the source lies here: of a move of these axes, and no others, to these numbers, in a program of that unit.
+    /// The same numbers in the other unit are another place.
+    pub fn of(&self, place: &[(Role, f64)], inch: Option<bool>) -> Option<&[(Role, f64)]> {
+        let other = self.inch.zip(inch).is_some_and(|(own, of_program)| own != of_program);
+        let (_, here) = self.rows.iter().filter(|_| !other).find(|(there, _)| is_same(there, place))?;
         Some(here)
     }
 
     /// True if there are none.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.rows.is_empty()
     }
 }
 
@@ -73,18 +79,19 @@ fn words(text: &str) -> Option<Place> {
 impl Overlay {
     /// The places of other machines that the profile says to lie elsewhere on this one.
     pub(super) fn machine_places(&mut self) -> MachinePlaces {
-        let mut all = MachinePlaces::default();
+        let inch = self.profile.units.map(|units| units == Units::Inch);
+        let mut all = MachinePlaces { inch, ..MachinePlaces::default() };
         for text in self.profile.machine_places.clone() {
             let (message, help) = match read(&text) {
                 None => (
                     format!("'{text}' is not a place and where it lies here"),
                     "write 'X-11. Z-13. as X-300. Z-200.': the words of the old machine, and those of this one",
                 ),
-                Some((there, here)) if all.of(&there).is_some_and(|other| !is_same(other, &here)) => {
+                Some((there, here)) if all.of(&there, None).is_some_and(|other| !is_same(other, &here)) => {
                     (format!("'{text}' contradicts what stands before it"), "name each place once")
                 }
                 Some(row) => {
-                    all.0.push(row);
+                    all.rows.push(row);
                     continue;
                 }
             };
@@ -123,12 +130,15 @@ mod tests {
         let control = Control::from_profile(text).expect("a profile");
         let places = control.machine_places();
         let here = [(Role::Z, -200.0), (Role::X, -300.5)];
-        assert_eq!(places.of(&[(Role::Z, -13.0), (Role::X, -11.0)]), Some(&here[..]));
-        assert_eq!(places.of(&[(Role::Y, 0.0)]), Some(&[(Role::Y, -10.0)][..]));
-        assert_eq!(places.of(&[(Role::X, -11.0)]), None);
-        assert_eq!(places.of(&[(Role::X, -11.0), (Role::Z, -13.0), (Role::Y, 0.0)]), None);
-        assert_eq!(places.of(&[(Role::X, -11.001), (Role::Z, -13.0)]), None);
+        assert_eq!(places.of(&[(Role::Z, -13.0), (Role::X, -11.0)], None), Some(&here[..]));
+        assert_eq!(places.of(&[(Role::Y, 0.0)], Some(true)), Some(&[(Role::Y, -10.0)][..]));
+        assert_eq!(places.of(&[(Role::X, -11.0)], None), None);
+        assert_eq!(places.of(&[(Role::X, -11.0), (Role::Z, -13.0), (Role::Y, 0.0)], None), None);
+        assert_eq!(places.of(&[(Role::X, -11.001), (Role::Z, -13.0)], None), None);
         assert!(control.places_there().is_empty());
+        let metric = Control::from_profile(&format!("units = \"metric\"\n{text}")).expect("a profile");
+        let at = |inch| metric.machine_places().of(&[(Role::Y, 0.0)], inch).is_some();
+        assert!(at(Some(false)) && at(None) && !at(Some(true)));
     }
 
     #[test]

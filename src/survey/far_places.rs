@@ -21,7 +21,7 @@ pub(super) fn named(target: &Control, module: &Module) -> Vec<(String, usize)> {
         let mut own = BTreeSet::new();
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
-            let place = place(nc).filter(|place| target.machine_places().of(place).is_none());
+            let place = place(nc).filter(|place| target.machine_places().of(place, None).is_none());
             own.extend(place.map(|place| words(&place)));
         }
         own.into_iter().for_each(|place| *all.entry(place).or_default() += 1);

@@ -11,7 +11,7 @@ pub(super) fn elsewhere(machine: &Machine, command: &Command) -> Option<Command>
         return None;
     }
     let named: Vec<(Role, f64)> = command.words.iter().filter(|(role, _)| role.is_axis()).copied().collect();
-    let there = places.of(&named)?;
+    let there = places.of(&named, Some(machine.inch))?;
     let mut moved = command.clone();
     moved.words.retain(|(role, _)| !role.is_axis());
     moved.words.extend(there.iter().copied());

@@ -1,10 +1,12 @@
 //! Places in machine coordinates that lie elsewhere on the target, as its profile says.
 //!
 //! Law: a move in machine coordinates to exactly such a place gets the words of the place where it lies on the target. The source is followed
-//! as if it named them. Side conditions: all its axis words are numbers, and none is an increment. Counter-example: `G91 G53 X-11.`.
+//! as if it named them. Side conditions: all its axis words are numbers, none is an increment, and they count in
+//! the unit of that profile. Counter-example: `G20 G53 X-11.` in a library of millimetres.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Units};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use crate::legalize::{Context, Modal, ModalFacts};
 use std::collections::HashSet;
@@ -26,7 +28,7 @@ pub(super) fn run(module: &mut Module, facts: &ModalFacts, context: &mut Context
                 state.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 let Some(place) = place(nc, &state) else { continue };
-                let Some(there) = source.places_there().of(&place) else { continue };
+                let Some(there) = source.places_there().of(&place, inch(&state, source)) else { continue };
                 put(nc, there);
                 moved.insert((index, id, at));
                 context.add_once(index, MOVED, Diagnostic::new(Code::PlaceMoved, stmt.site.span, MOVED));
@@ -56,6 +58,14 @@ fn place(nc: &Nc, state: &Modal) -> Option<Vec<(Role, f64)>> {
         }
     }
     Some(place).filter(|place| !place.is_empty())
+}
+
+/// True where numbers are inches; none where neither the program nor the source's profile says it.
+fn inch(state: &Modal, source: &Control) -> Option<bool> {
+    match state.op(Group::Units) {
+        Some(op) => Some(op == Op::Inch),
+        None => source.units().map(|units| units == Units::Inch),
+    }
 }
 
 /// Puts words in the place of those of the axes.

@@ -6,31 +6,24 @@
 //! Side condition: offset 00 is none (`none_offsets`), and station 0 leaves the tool that is there.
 //! Counter-example: `T0121`, a second offset of the tool in station 1.
 
+use super::none_offsets::{answer, turns_apart};
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Machine, Question, turret_parts};
+use crate::dialect::{Question, turret_parts};
 use crate::ir::{Expr, Module, Nc};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
 const QUESTION: Question = Question::TurretGeometry;
 
-/// Which row a control takes the geometry from, where it is known.
-fn answer(control: &Control) -> Option<&str> {
-    control.behaviour(QUESTION).map(|row| row.value.as_str()).filter(|value| *value != "unknown")
-}
-
 /// True for lathes that do not answer alike.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let (ours, theirs) = (answer(context.source), answer(context.target));
-    let alike = ours.is_some() && ours == theirs;
-    let turns = [context.source, context.target].iter().all(|one| one.machine() == Machine::Lathe);
-    turns && features.role(Role::Turret) && !alike && !context.source.is_same_machine(context.target)
+    turns_apart(QUESTION, features, context)
 }
 
 /// Looks at each T word.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let known = answer(context.source).is_some() && answer(context.target).is_some();
+    let known = answer(context.source, QUESTION).is_some() && answer(context.target, QUESTION).is_some();
     for (index, program) in module.programs.iter().enumerate() {
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let Some(parts) = stmt.kind.nc().and_then(apart) else { continue };
@@ -49,10 +42,10 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     context.add_once(index, COMPUTED, told);
                 }
                 (false, _) => {
-                    if answer(context.source).is_none() {
+                    if answer(context.source, QUESTION).is_none() {
                         context.rests_on_source(index, span, QUESTION);
                     }
-                    if answer(context.target).is_none() {
+                    if answer(context.target, QUESTION).is_none() {
                         context.rests_on_target(index, span, QUESTION);
                     }
                 }

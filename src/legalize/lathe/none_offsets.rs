@@ -15,17 +15,22 @@ use crate::legalize::{Context, Modal};
 
 const QUESTION: Question = Question::TurretNone;
 
-/// What offset 00 takes away on a control, where it is known.
-fn answer(control: &Control) -> Option<&str> {
-    control.behaviour(QUESTION).map(|row| row.value.as_str()).filter(|value| *value != "unknown")
+/// What a control answers to a question, where it is known.
+pub(super) fn answer(control: &Control, question: Question) -> Option<&str> {
+    control.behaviour(question).map(|row| row.value.as_str()).filter(|value| *value != "unknown")
+}
+
+/// True for a library with T words, between two lathes that do not answer a question alike.
+pub(super) fn turns_apart(question: Question, features: &Features, context: &Context<'_>) -> bool {
+    let (ours, theirs) = (answer(context.source, question), answer(context.target, question));
+    let alike = ours.is_some() && ours == theirs;
+    let turns = [context.source, context.target].iter().all(|one| one.machine() == Machine::Lathe);
+    turns && features.role(Role::Turret) && !alike && !context.source.is_same_machine(context.target)
 }
 
 /// True for lathes that do not answer alike.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let (ours, theirs) = (answer(context.source), answer(context.target));
-    let alike = ours.is_some() && ours == theirs;
-    let turns = [context.source, context.target].iter().all(|one| one.machine() == Machine::Lathe);
-    turns && features.role(Role::Turret) && !alike && !context.source.is_same_machine(context.target)
+    turns_apart(QUESTION, features, context)
 }
 
 const HELP: &str = "write the way to the tool change as G28 U0 W0, or as a place in machine coordinates with G53; or end with the \
@@ -34,14 +39,14 @@ const HELP: &str = "write the way to the tool change as G28 U0 W0, or as a place
 /// Looks at each move.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    let known = answer(context.source).is_some() && answer(context.target).is_some();
+    let known = answer(context.source, QUESTION).is_some() && answer(context.target, QUESTION).is_some();
     facts.each(module, &mut |index, stmt, _, after| {
         if !after.turret_none || !stmt.kind.nc().is_some_and(|nc| goes_to_place(nc, after)) {
             return;
         }
         let span = stmt.site.span;
         if known {
-            let (one, other) = match answer(context.source) {
+            let (one, other) = match answer(context.source, QUESTION) {
                 Some("wear") => (Side::Source, Side::Target),
                 _ => (Side::Target, Side::Source),
             };
@@ -54,7 +59,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         }
         let mut told = Diagnostic::new(Code::Conditional, span, OPEN).with_help(OPEN_HELP);
         for (control, side) in [(context.source, Side::Source), (context.target, Side::Target)] {
-            let setting = control.setting_of(QUESTION).filter(|_| answer(control).is_none());
+            let setting = control.setting_of(QUESTION).filter(|_| answer(control, QUESTION).is_none());
             let Some(row) = setting else { continue };
             told = if side == Side::Source {
                 told.lacking(row.name.clone())

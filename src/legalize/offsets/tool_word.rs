@@ -17,7 +17,7 @@ use crate::text::Span;
 pub const ADDRESS_T: u32 = 20;
 
 /// Asks wherever the tool in the spindle is read and the target tells the last tool word in its place: that is the
-/// same after a change, is asked once where none is seen since the run began, is for review after what is not known, and an
+/// same after a change, is asked once if none was seen since the run began, is for review after what is not known, and an
 /// error where a tool may wait for its change.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let may_read = |index| context.may_concern(index, |features| features.has(Feature::System));
