@@ -7,6 +7,7 @@ pub(in crate::legalize) mod earlier;
 pub(in crate::legalize) mod emptied;
 mod head_text;
 pub(in crate::legalize) mod heads;
+pub(in crate::legalize) mod line_comments;
 pub(in crate::legalize) mod macro_lines;
 pub(in crate::legalize) mod program_numbers;
 pub(in crate::legalize) mod scratch;

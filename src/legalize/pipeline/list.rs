@@ -68,6 +68,7 @@ const DEAD_STORES: Pass =
     Pass::tidies(&DeadStores, "dead-stores", "temporaries that nothing reads are removed");
 
 const EARLIER: &[Pass] = &[
+    super::source::LINE_COMMENTS,
     Pass::edits("heads", "heads of an earlier conversion go, as this one writes its own", heads::run),
     Pass::edits(
         "counted-clears",

@@ -14,10 +14,18 @@ use crate::legalize::cycles::{
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::{contour_numbers, other_kind};
-use crate::legalize::layout::skip_runs;
+use crate::legalize::layout::{line_comments, skip_runs};
 use crate::legalize::moves::{bare_feeds, first_increments};
 use crate::legalize::offsets::{arc_starts, known_tools, missing_length, missing_radius};
 use crate::legalize::variables::last_words;
+
+/// Before a block that only seems to be comments is one.
+pub(super) const LINE_COMMENTS: Pass = Pass::edits(
+    "line-comments",
+    "comments after the end of a block, on its line, stand in that block",
+    line_comments::run,
+)
+.brings_nothing();
 
 /// Before what is read is folded away.
 pub(super) const READ: &[Pass] = &[

@@ -28,7 +28,17 @@ pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
             _ => words = true,
         }
     }
+    if !words && goes_on_a_line(block.span, source) {
+        site.comments.iter_mut().for_each(|comment| comment.leading = false);
+    }
     site
+}
+
+/// True for a block that does not begin its line: `(INCHES)` of `G20; (INCHES)`.
+fn goes_on_a_line(block: Span, source: &[u8]) -> bool {
+    let before = source.get(..block.start as usize).unwrap_or_default();
+    let before = before.iter().rev().find(|byte| !matches!(byte, b' ' | b'\t'));
+    before.is_some_and(|byte| !matches!(byte, b'\n' | b'\r'))
 }
 
 /// How many lines without anything stand right before a block; 255 stand for more.
