@@ -1,7 +1,8 @@
 //! Pecks that become less, as moves, where the target tells all pecks of a hole one depth.
 //!
-//! Law: the holes of a program with such pecks, and of those that it calls or that call it, become the moves that they are (see
-//! [`super::hole_moves`]): so no cycle begins on one control and goes on on the other. Side conditions: those of that pass, and all
+//! Law: a cycle with such pecks becomes the moves that its holes are (see [`super::hole_moves`]), from the block that names it to the one
+//! that ends it. If a call comes between, the holes of its program do, and of those that it calls or that call it: so no cycle begins on
+//! one control and goes on on the other. Side conditions: those of that pass, and all
 //! numbers of these cycles are known. Counter-example: `G83 I#1 J1. K2.`, which stays and is refused later.
 
 use super::even_pecks::{by_depth, even, pecks};
@@ -19,16 +20,20 @@ pub fn concerns(features: &Features) -> bool {
 
 /// Writes them as moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let uneven = |program: &Program| {
-        let mut stmts =
-            program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
-        stmts.any(|nc| {
-            let cycle = nc.ops().find(|op| pecks(*op)).filter(|op| by_depth(context.target, *op));
-            cycle.is_some() && nc.word(Role::PeckFirst).is_some() && even(nc).is_none()
-        })
+    let target = context.target;
+    let uneven = |nc: &Nc| {
+        let cycle = nc.ops().find(|op| pecks(*op)).filter(|op| by_depth(target, *op));
+        cycle.is_some() && nc.word(Role::PeckFirst).is_some() && even(nc).is_none()
     };
+    let has_uneven = |program: &Program| {
+        program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc()).any(uneven)
+    };
+    if !module.programs.iter().any(has_uneven) {
+        return;
+    }
+    hole_moves::write_cycles(module, context, &uneven);
     let mut all: BTreeSet<usize> =
-        (0..module.programs.len()).filter(|index| uneven(&module.programs[*index])).collect();
+        (0..module.programs.len()).filter(|index| has_uneven(&module.programs[*index])).collect();
     if all.is_empty() {
         return;
     }
@@ -47,7 +52,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     // A tap beside them has no moves, and the target has a code for it: then these pecks alone are refused, by their words.
     if all.iter().all(|index| has_moves_only(&module.programs[*index])) {
-        hole_moves::write(module, context, Some(&all));
+        hole_moves::write_programs(module, context, &all);
     }
 }
 

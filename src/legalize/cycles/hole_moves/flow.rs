@@ -1,5 +1,6 @@
 //! Which cycle is in force where, over the calls of a library.
 
+use super::chosen::Chosen;
 use super::drill::{Cycle, Known, Runs, Told, Value};
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::Lattice;
@@ -81,24 +82,23 @@ impl Follow for Flow<'_> {
 }
 
 impl Flow<'_> {
-    /// What holes of the library, or of these programs of it, take from registers.
-    pub fn held(
-        &self,
-        module: &Module,
-        known: &OverCalls<Known>,
-        only: Option<&BTreeSet<usize>>,
-    ) -> [bool; 6] {
+    /// What the holes that are written take from registers.
+    pub fn held(&self, module: &Module, known: &OverCalls<Known>, chosen: Option<&Chosen>) -> [bool; 6] {
         let mut held = [false; 6];
         for (index, program) in module.programs.iter().enumerate() {
-            if only.is_some_and(|only| !only.contains(&index)) {
+            if chosen.is_some_and(|chosen| !chosen.any_in(index)) {
                 continue;
             }
             for (id, block) in program.ids().zip(&program.blocks) {
                 let Some(mut known) = known.at(index, id).cloned() else { continue };
                 let mut modal = self.facts.at(index, id);
+                let mut written = chosen.map(|chosen| chosen.at(index, id).iter().copied());
                 for (stmt, vacant) in block.stmts.iter().zip(self.vacancies.at(index, id)) {
                     modal.step(stmt);
                     step(stmt, &mut known, &modal, self.runs, *vacant);
+                    if written.as_mut().is_some_and(|written| written.next() != Some(true)) {
+                        continue;
+                    }
                     let (StmtKind::Nc(nc), Cycle::On(drill)) = (&stmt.kind, &known.cycle) else { continue };
                     if self.runs.drills(nc) || nc.ops().any(Op::is_cycle) {
                         for what in Told::ALL {

@@ -13,8 +13,10 @@
 //! one, and the bottom must be below the retract plane. Counter-example: `G81 R2.` where some callers say G98 and
 //! others G99.
 
+mod chosen;
 mod drill;
 mod flow;
+mod library;
 mod moves;
 mod pen;
 
@@ -24,20 +26,22 @@ use crate::dialect::{Control, Question, Units};
 use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
-    BinOp, BlockId, Builder, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo,
-    Stmt, StmtKind, TermKind, Var, statics_of,
+    BinOp, BlockId, Builder, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, SourceInfo, Stmt,
+    StmtKind, TermKind, Var,
 };
 use crate::legalize::Context;
-use crate::legalize::features::Features;
-use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
+use crate::legalize::rewrite::{Part as Piece, rebuild};
 use crate::text::Span;
+use chosen::Chosen;
 pub(super) use drill::keeps_height;
 use drill::{Cycle, Drill, Height, Known, Runs, Told, tells, unplaced};
-use flow::{Flow, Vacancies, named_unit, says_motion, step};
+use flow::{Vacancies, says_motion, step};
+pub use library::run;
+pub(super) use library::{write_cycles, write_programs};
 pub(super) use moves::has_moves;
-use moves::{Hole, Part, counts, hole, lifts, may_end_at_feed, mixes, of_unplaced};
+use moves::{CLEAR, Hole, Part, counts, hole, lifts, may_end_at_feed, mixes, of_unplaced};
 use pen::{Pen, push};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// True if no cycle of the target is told a retract plane.
 pub fn replaces(target: &Control) -> bool {
@@ -45,54 +49,6 @@ pub fn replaces(target: &Control) -> bool {
     !cycles
         .into_iter()
         .any(|row| target.letter(Role::CycleR, target.code_for(row.op, &BTreeMap::new())).is_some())
-}
-
-/// Writes holes as moves.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    context.drills = true;
-    write(module, context, None);
-}
-
-/// Writes holes as moves, of these programs alone, if any are named: then only where no register is needed for it.
-pub(super) fn write(module: &mut Module, context: &mut Context<'_>, only: Option<&BTreeSet<usize>>) {
-    let facts = context.modal_facts(module);
-    let value = |question| context.source.behaviour(question).map(|row| row.value.as_str());
-    let rules = Runs {
-        with_place: value(Question::CycleBlockRuns) != Some("false"),
-        without: value(Question::CycleRunsWithoutAxes) == Some("true"),
-        wordless: value(context.source.of_wordless_cycles()) == Some("true"),
-        by_depth: value(Question::CycleRunsByDepth) == Some("true"),
-        // Controls begin so, and nothing in the library changes it.
-        returns: (!Features::of(&module.programs).op(Op::ReturnR)).then_some(Op::ReturnInitial),
-    };
-    let vacancies = Vacancies::of(module, &context.summaries(module));
-    let flow = Flow { facts: &facts, runs: rules, vacancies: &vacancies };
-    let known = OverCalls::of(module, &flow);
-    let held = flow.held(module, &known, only);
-    let inch = named_unit(module);
-    if only.is_some() && held.contains(&true) {
-        return;
-    }
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        if only.is_some_and(|only| !only.contains(&index)) {
-            continue;
-        }
-        let mut writer = Writer {
-            index,
-            facts: &facts,
-            flow: &known,
-            rules,
-            held,
-            first: statics_of::HOLES,
-            temps: highest_temp(program),
-            vacancies: &vacancies,
-            inch,
-            vacant: false,
-            whole: only.is_none(),
-            context,
-        };
-        writer.program(program);
-    }
 }
 
 struct Writer<'w, 'c> {
@@ -110,10 +66,13 @@ struct Writer<'w, 'c> {
     inch: Option<bool>,
     /// True if a word of the block at hand may be vacant.
     vacant: bool,
-    /// True if the target has no cycles, and no code of a return plane.
-    whole: bool,
+    /// What is written; all of it if none.
+    chosen: Option<&'w Chosen>,
     context: &'w mut Context<'c>,
 }
+
+/// The line of a profile that says how far over the last depth a peck begins, with a value that is common.
+const CLEARANCE: &str = "behaviour.cycle.peck.clearance=1";
 
 const MIXED: &str = "a drilling cycle is in force on some of the ways to this block, and the target has no cycles: end it with G80 on every way";
 const FROZEN: &str = "the planes of this cycle were told under the other of G90 and G91, and whether they keep their meaning is not \
@@ -133,7 +92,9 @@ const REPEAT: &str = "a repeated cycle in incremental words: write its planes in
 
 impl Writer<'_, '_> {
     fn refuse(&mut self, span: Span, what: &'static str) {
-        self.context.add_once(self.index, what, Diagnostic::new(Code::NoEquivalent, span, what));
+        let found = Diagnostic::new(Code::NoEquivalent, span, what);
+        let found = if what == CLEAR { found.lacking(CLEARANCE) } else { found };
+        self.context.add_once(self.index, what, found);
     }
 
     fn review(&mut self, span: Span, what: &'static str) {
@@ -147,7 +108,7 @@ impl Writer<'_, '_> {
         }
         let (mut known, mut modal): (Option<Known>, Modal) = (None, Modal::unknown());
         let mut ends: Vec<Vec<bool>> = program.blocks.iter().map(says_motion).collect();
-        let (mut says, mut vacant) = (Vec::new(), Vec::new());
+        let (mut says, mut vacant, mut chosen) = (Vec::new(), Vec::new(), Vec::new());
         rebuild(program, &mut |builder, part| match part {
             Piece::Start(id) => {
                 known = self.flow.at(self.index, id).cloned();
@@ -155,17 +116,23 @@ impl Writer<'_, '_> {
                 says = ends.get_mut(id.index()).map(std::mem::take).unwrap_or_default();
                 says.reverse();
                 vacant = self.vacancies.at(self.index, id).iter().rev().copied().collect();
+                chosen = self
+                    .chosen
+                    .map(|all| all.at(self.index, id).iter().rev().copied().collect())
+                    .unwrap_or_default();
             }
             Piece::Term(_) => part.keep(builder),
             Piece::Stmt(stmt) => {
                 let next = says.pop().unwrap_or(false);
                 self.vacant = vacant.pop().unwrap_or(true);
+                let stays = !chosen.pop().unwrap_or(self.chosen.is_none());
                 let (before, was) = (known.clone(), modal.clone());
                 modal.step(&stmt);
                 if let Some(known) = &mut known {
                     step(&stmt, known, &modal, self.rules, self.vacant);
                 }
-                let (Some(before), Some(after), true) = (before, &known, stmt.kind.nc().is_some()) else {
+                let is_nc = stmt.kind.nc().is_some() && !stays;
+                let (Some(before), Some(after), true) = (before, &known, is_nc) else {
                     return builder.push(stmt.kind, stmt.site);
                 };
                 self.statement(builder, stmt, (&before, after), (&was, &modal), next);
@@ -184,7 +151,9 @@ impl Writer<'_, '_> {
         let Stmt { kind, site } = stmt;
         let StmtKind::Nc(mut nc) = kind else { return builder.push(kind, site) };
         let span = site.span;
-        nc.items.retain(|item| !self.whole || !matches!(item, NcItem::Op(Op::ReturnR | Op::ReturnInitial)));
+        nc.items.retain(|item| {
+            self.chosen.is_some() || !matches!(item, NcItem::Op(Op::ReturnR | Op::ReturnInitial))
+        });
         if nc.has(Op::CycleOff) && matches!(before.cycle, Cycle::On(_) | Cycle::Maybe(_) | Cycle::Mixed) {
             self.end(&mut nc, was, (span, says_motion), may_end_at_feed(&before.cycle));
         }
@@ -198,7 +167,7 @@ impl Writer<'_, '_> {
 
     /// Ends a cycle: the interpolation of before it counts again. A bored hole may have left the feed in force.
     fn end(&mut self, nc: &mut Nc, was: &Modal, (span, says_motion): (Span, bool), at_feed: bool) {
-        nc.items.retain(|item| !self.whole || *item != NcItem::Op(Op::CycleOff));
+        nc.items.retain(|item| self.chosen.is_some() || *item != NcItem::Op(Op::CycleOff));
         let named = nc.ops().any(|op| op.group() == Group::Motion);
         match was.op(Group::Motion) {
             _ if named => {}
