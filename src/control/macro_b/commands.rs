@@ -176,7 +176,7 @@ impl<'c> Runner<'c> {
                 Some((_, None)) if word.comma && picks_code(self, meaning, word.letter, true) => {}
                 Some((role, row)) => {
                     let value = match role {
-                        Role::WorkOffset | Role::OffsetRow => {
+                        Role::WorkOffset | Role::OffsetRow | Role::Output => {
                             self.session.control.canonical(row, role, value)
                         }
                         Role::Turret => self.session.control.turret_word().read(value),
