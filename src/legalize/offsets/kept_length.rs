@@ -15,6 +15,7 @@ use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::modal::Ways;
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
+use crate::legalize::calls::standing::tied_to;
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, Setting};
 use crate::text::Span;
@@ -64,15 +65,20 @@ impl Asked {
     }
 }
 
-/// What the length hangs on after a return on the target: one to the second reference position becomes a move in machine
-/// coordinates where it has no code for it.
-fn after_return(features: &Features, target: &Control) -> &'static [Question] {
-    let moves = features.op(Op::Reference2) && target.code_for(Op::Reference2, &BTreeMap::new()).is_none();
-    match (moves, features.op(Op::ReferenceReturn)) {
-        (false, _) => &[RETURN],
-        (true, false) => &[MOVE],
-        (true, true) => &[RETURN, MOVE],
+/// By program, what the length hangs on after a return on the target: one to the second reference position, of the program or of one
+/// that runs with it, becomes a move in machine coordinates where the target has no code for it.
+fn after_returns(module: &Module, context: &mut Context<'_>) -> Vec<&'static [Question]> {
+    let features = Features::of(&module.programs);
+    let moves =
+        features.op(Op::Reference2) && context.target.code_for(Op::Reference2, &BTreeMap::new()).is_none();
+    if !moves {
+        return vec![&[RETURN]; module.programs.len()];
     }
+    let returns = |program: &Program| Features::of_program(program).op(Op::Reference2);
+    let seconds = module.programs.iter().enumerate().filter(|(_, program)| returns(program));
+    let moved = tied_to(seconds.map(|(index, _)| index), &context.called(module).pairs(module));
+    let both: &[Question] = if features.op(Op::ReferenceReturn) { &[RETURN, MOVE] } else { &[MOVE] };
+    (0..module.programs.len()).map(|index| if moved.contains(&index) { both } else { &[RETURN] }).collect()
 }
 
 /// Says which length is in force where a return, a move in machine coordinates or a tool change may have cancelled it.
@@ -84,8 +90,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let absent = absent(module);
     let features = Features::of(&module.programs);
-    let (drills, returns) = (features.any_op(Op::is_cycle), after_return(&features, context.target));
-    for (index, program) in module.programs.iter_mut().enumerate() {
+    let drills = features.any_op(Op::is_cycle);
+    let after = after_returns(module, context);
+    for ((index, program), returns) in module.programs.iter_mut().enumerate().zip(after) {
         for (id, block) in program.ids().zip(&mut program.blocks) {
             let mut state = facts.at(index, id);
             for (at, stmt) in block.stmts.iter_mut().enumerate() {

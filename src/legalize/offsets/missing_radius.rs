@@ -11,8 +11,8 @@ use crate::dialect::{Machine, Question};
 use crate::ir::analysis::calls_of;
 use crate::ir::{Callee, Module, Nc, Program};
 use crate::legalize::Context;
+use crate::legalize::calls::standing::tied_to;
 use crate::legalize::features::Features;
-use std::collections::HashMap;
 
 /// True for a mill's library with codes of cutter compensation, which a word gives its number.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -30,18 +30,12 @@ fn begins(op: Op) -> bool {
 
 /// Tells of the first such code of each program.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let groups = groups(module);
-    let mut names = vec![false; module.programs.len()];
-    for (program, group) in module.programs.iter().zip(&groups) {
-        if let Some(named) = names.get_mut(*group) {
-            *named |=
-                blocks(program).any(|nc| nc.word(Role::RadiusOffset).is_some()) || calls_unknown(program);
-        }
-    }
-    for (index, (program, group)) in module.programs.iter().zip(&groups).enumerate() {
-        if names.get(*group) == Some(&true) {
-            continue;
-        }
+    let names = |program: &Program| {
+        blocks(program).any(|nc| nc.word(Role::RadiusOffset).is_some()) || calls_unknown(program)
+    };
+    let naming = module.programs.iter().enumerate().filter(|(_, program)| names(program));
+    let named = tied_to(naming.map(|(index, _)| index), &context.called(module).pairs(module));
+    for (index, program) in module.programs.iter().enumerate().filter(|(index, _)| !named.contains(index)) {
         let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         let mut codes = stmts.filter(|stmt| stmt.kind.nc().is_some_and(|nc| nc.ops().any(begins)));
         if let Some(stmt) = codes.next() {
@@ -63,30 +57,4 @@ fn blocks(program: &Program) -> impl Iterator<Item = &Nc> {
 fn calls_unknown(program: &Program) -> bool {
     let mut calls = program.blocks.iter().flat_map(calls_of);
     calls.any(|call| matches!(call.callee, Callee::Computed(_)))
-}
-
-/// For each program a number that all have that call one another.
-fn groups(module: &Module) -> Vec<usize> {
-    let programs = module.programs.iter().enumerate();
-    let names: HashMap<_, _> =
-        programs.filter_map(|(at, program)| Some((program.name.as_ref()?, at))).collect();
-    let mut groups: Vec<usize> = (0..module.programs.len()).collect();
-    let mut changed = true;
-    while std::mem::take(&mut changed) {
-        for (at, program) in module.programs.iter().enumerate() {
-            for call in program.blocks.iter().flat_map(calls_of) {
-                let Callee::Program(name) = &call.callee else { continue };
-                let Some(to) = names.get(name) else { continue };
-                let (Some(mine), Some(theirs)) = (groups.get(at).copied(), groups.get(*to).copied()) else {
-                    continue;
-                };
-                if mine != theirs {
-                    let least = mine.min(theirs);
-                    groups.iter_mut().filter(|one| [mine, theirs].contains(one)).for_each(|one| *one = least);
-                    changed = true;
-                }
-            }
-        }
-    }
-    groups
 }
