@@ -204,7 +204,7 @@ fn operators(reader: &mut Reader, rows: &[Placed<Operator>]) {
     }
 }
 
-/// Every answer is one that its question may have. Of several that a source leaves open none is the answer.
+/// Every answer is one that its question may have. An answer that machines may have otherwise is one of theirs.
 fn answers(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
     for placed in rows {
         let Behaviour { question, value, one_of, .. } = &placed.row;
@@ -223,9 +223,13 @@ fn answers(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
                 format!("{question} is left open, but 'one_of' has no answers"),
                 help,
             );
-        } else if !one_of.is_empty() && value != "unknown" {
-            let help = "write value = \"unknown\", or remove 'one_of'";
-            reader.fault_at(placed.place.clone(), format!("{question} has an answer and is left open"), help);
+        } else if !one_of.is_empty() && value != "unknown" && !one_of.contains(value) {
+            let help = "write value = \"unknown\", or the answer into 'one_of'";
+            reader.fault_at(
+                placed.place.clone(),
+                format!("{question} has an answer that is none of 'one_of'"),
+                help,
+            );
         }
     }
 }

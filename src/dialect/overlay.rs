@@ -1,7 +1,7 @@
 //! Lays a machine profile over a dialect's table.
 
 use super::extents;
-use super::overlay_settings::leave_changes_to_code;
+use super::overlay_settings::settle_tool_words;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
 use super::{Behaviour, Control, Dialect, Entry, Mark, Question, SystemVariable, VariableClass, registry};
@@ -46,7 +46,7 @@ impl Control {
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
-        leave_changes_to_code(&mut dialect);
+        settle_tool_words(&mut dialect);
         Overlay::rest(&mut dialect);
         let Overlay { mut reader, profile, .. } = overlay;
         if !reader.faults.is_empty() {

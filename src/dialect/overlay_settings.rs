@@ -4,8 +4,8 @@ use super::control::numbered;
 use super::overlay::{Overlay, conditions};
 use super::profile::Plain;
 use super::reader::closest;
-use super::{BareLength, Behaviour, Dialect, Mark, OneTable, Origin, Question, Setting, TABLE_ROWS};
-use crate::canon::Op;
+use super::{BareLength, Dialect, Mark, OneTable, Origin, Question, Setting, TABLE_ROWS};
+use crate::canon::{Op, Role};
 use std::collections::BTreeMap;
 
 impl Overlay {
@@ -225,13 +225,20 @@ impl Setting {
     }
 }
 
-/// Takes away what the table says of tool words that change tools by themselves, where the profile says that a code does: then the
-/// word only names the tool.
-pub(super) fn leave_changes_to_code(dialect: &mut Dialect) {
-    let by_code = |row: &Behaviour| row.question == Question::ToolChangeWord && row.value == "m6";
-    if dialect.behaviours.iter().any(by_code) {
-        dialect.behaviours.retain(|row| row.question != Question::ToolWordAgain);
-        let changes = dialect.words.iter_mut().filter(|row| row.op == Some(Op::ToolChange));
-        changes.for_each(|row| row.op = None);
+/// Makes tool words do what the answer says: where a code changes the tool the word only names it, whatever the table says of
+/// words that change tools by themselves, and where the word does it is the change.
+pub(super) fn settle_tool_words(dialect: &mut Dialect) {
+    let row = dialect.behaviours.iter().find(|row| row.question == Question::ToolChangeWord);
+    match row.map(|row| row.value.as_str()) {
+        Some("m6") => {
+            dialect.behaviours.retain(|row| row.question != Question::ToolWordAgain);
+            let changes = dialect.words.iter_mut().filter(|row| row.op == Some(Op::ToolChange));
+            changes.for_each(|row| row.op = None);
+        }
+        Some("t") => {
+            let names = dialect.words.iter_mut().filter(|row| row.role == Role::Tool && row.op.is_none());
+            names.for_each(|row| row.op = Some(Op::ToolChange));
+        }
+        _ => {}
     }
 }

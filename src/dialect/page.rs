@@ -89,6 +89,7 @@ pub fn page(control: &Control) -> String {
     section(&mut out, "BEHAVIOURS", &dialect.behaviours, |row| {
         let one_of = match row.one_of.as_slice() {
             [] => row.value.clone(),
+            answers if answers.contains(&row.value) => format!("{}, or as the profile says", row.value),
             answers => answers.join(" or "),
         };
         vec![row.question.name().into(), one_of, row.question.meaning().into()]

@@ -101,7 +101,8 @@ pub struct Behaviour {
     pub question: Question,
     /// The answer: one that the question may have.
     pub value: String,
-    /// Where the answer is unknown: those that a source leaves open between.
+    /// Where the answer is unknown: those that a source leaves open between. Beside an answer that is among them: what a machine
+    /// may have, as its profile says, where most have that one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub one_of: Vec<String>,
     /// The option that the answer is `true` by; without it it is `false`. Of several rows of one question: the option, or

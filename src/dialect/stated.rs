@@ -241,7 +241,10 @@ fn acts_by(dialect: &Dialect, question: Question, row: Option<&Behaviour>, value
             || sets.flatten().any(|(fact, to)| fact == question.fact() && to == value)
     };
     let settles = |row: &Behaviour| {
-        row.value == value || OPEN.contains(&row.value.as_str()) || row.option.is_some() && value != "unknown"
+        row.value == value
+            || OPEN.contains(&row.value.as_str())
+            || row.one_of.iter().any(|one| one == value)
+            || row.option.is_some() && value != "unknown"
     };
     // A number that no table has is one that only the machine has.
     let of_machine = row.is_none() && question.answers() == Answers::Number;

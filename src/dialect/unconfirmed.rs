@@ -117,13 +117,15 @@ impl Control {
                 };
                 Settled::Setting { section, name: name.to_owned(), values: row.values.clone() }
             }
-            None if !own || row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {
-                Some(question) if !question.answers().written(&[]).is_empty() => Settled::Answer {
-                    question: question.to_string(),
-                    answers: question.answers().written(row.map_or(&[], |row| &row.one_of)),
-                },
-                _ => Settled::Confirmed(fact.to_owned()),
-            },
+            None if !own || row.is_none_or(|row| row.value == "unknown" || !row.one_of.is_empty()) => {
+                match Question::of_fact(fact) {
+                    Some(question) if !question.answers().written(&[]).is_empty() => Settled::Answer {
+                        question: question.to_string(),
+                        answers: question.answers().written(row.map_or(&[], |row| &row.one_of)),
+                    },
+                    _ => Settled::Confirmed(fact.to_owned()),
+                }
+            }
             None => Settled::Confirmed(fact.to_owned()),
         }
     }

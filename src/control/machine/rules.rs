@@ -303,7 +303,8 @@ impl Rules {
                 Question::ToolWordAgain,
                 |value| ["changes", "skipped"].contains(&value).then_some(value == "changes"),
                 true,
-            ),
+            )
+            .or_silent(control, Question::ToolWordAgain),
             tool_word_selects_length: yes(control, Question::ToolWordSelectsLength, false),
             cutter_takes_tool: yes(control, Question::RadiusOffsetActiveTool, false),
             length_picks_radius: yes(control, Question::LengthWordPicksRadius, false),

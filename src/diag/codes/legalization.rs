@@ -85,7 +85,7 @@ There is nothing to do where the program called sets the variable. Where a value
 Nothing needs to be done. Whoever wrote the line has looked at the way there: the block before it, and what stands on the table, are the new machine's."
 
     "0419" DoesNothing Note "a code that does nothing here is left out"
-"The block has a code that changes nothing where it stands: the code of a turning pass without a place (`G90` in the safe line of a lathe), before the first code that says how to move; the end of polar coordinates that no program of the library begins. On the target it would not be sure to do nothing, or the target has no such code. It is told once a program.
+"The block has a code that changes nothing where it stands: the code of a turning pass without a place (`G90` in the safe line of a lathe), before the first code that says how to move; the end of polar coordinates that no program of the library begins; a T that only makes a tool ready, for a machine whose T changes the tool. On the target it would not be sure to do nothing, or the target has no such code. It is told once a program.
 
 Nothing needs to be done."
         }

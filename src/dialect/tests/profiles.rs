@@ -172,11 +172,29 @@ fn a_row_may_leave_open_which_of_several_answers_it_is() {
         )
     };
     assert_eq!(faults(&row("unknown", r#""ms", "seconds""#)), "");
-    refused(&row("ms", r#""ms", "seconds""#), "dwell.point has an answer and is left open");
+    assert_eq!(faults(&row("ms", r#""ms", "seconds""#)), "");
+    refused(&row("setting", r#""ms", "seconds""#), "dwell.point has an answer that is none of 'one_of'");
     refused(&row("unknown", r#""ms", "hours""#), "'hours' is not a value of dwell.point");
     refused(&row("unknown", r#""ms""#), "'one_of' lists two answers or more");
     refused(&row("unknown", r#""ms", "ms""#), "'one_of' lists two answers or more");
     refused(&row("unknown", r#""ms", "unknown""#), "'one_of' lists two answers or more");
+}
+
+/// What a table answers with others beside it is what most machines do: a profile may say one of the others.
+#[test]
+fn a_profile_says_by_which_word_the_tool_is_changed() {
+    let with = |dialect: &str, value: &str| {
+        let text = format!("dialect = \"{dialect}\"\n[behaviours]\n\"tool.change.word\" = \"{value}\"");
+        Control::from_profile(&text)
+    };
+    for dialect in ["fanuc", "haas"] {
+        let control = with(dialect, "t").unwrap();
+        let word = |control: &Control| control.word('T', false).and_then(|row| row.op);
+        assert_eq!(word(&control), Some(Op::ToolChange));
+        assert_eq!(word(&with(dialect, "m6").unwrap()), None);
+    }
+    let faults = with("fadal", "t").unwrap_err();
+    assert!(faults[0].message.contains("'t' is not converted"), "{}", faults[0].message);
 }
 
 /// A question with so many answers open, and what a diagnostic says of it.

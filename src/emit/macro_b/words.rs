@@ -125,7 +125,7 @@ impl<'p> Emitter<'p> {
                 let meaning = op.meaning().trim().trim_end_matches('.');
                 self.out.unmapped(format_args!("the operation '{op}' ({meaning}) with these words{hint}"));
             }
-            codes.push(code);
+            codes.push(code.filter(|_| !by_word()));
         }
         codes
     }

@@ -26,4 +26,5 @@ pub(in crate::legalize) mod table_writes;
 pub(in crate::legalize) mod tool_groups;
 pub(in crate::legalize) mod tool_lengths;
 pub(in crate::legalize) mod tool_word;
+pub(in crate::legalize) mod tools_at_change;
 pub(in crate::legalize) mod written_tools;

@@ -18,7 +18,7 @@ use crate::legalize::moves::{
 use crate::legalize::offsets::{
     active_offsets, external, folded_shifts, kept_length, kept_radius, later_lengths, left_shifts,
     length_radius, named_lengths, no_shifts, one_table, radius_words, set_position, table_writes,
-    tool_lengths, written_tools,
+    tool_lengths, tools_at_change, written_tools,
 };
 
 /// Where computed codes and jumps are written out.
@@ -250,6 +250,16 @@ pub(super) const MOVES: &[Pass] = &[
     .when(|_, context| tool_lengths::concerns(context.target))
     .changes_flow()
     .needs(&["machine-moves"]),
+    Pass::rewrites(
+        "tools-at-change",
+        "tools are named at their change, where the tool word is the change",
+        tools_at_change::run,
+    )
+    .when(|c, context| {
+        let named = c.op(Op::ToolChange) || c.role(Role::Tool);
+        named && tools_at_change::concerns(context.source, context.target)
+    })
+    .needs(&["tool-lengths"]),
     Pass::rewrites(
         "radius-words",
         "numbers of cutter radii go to the codes that compensate by them",

@@ -323,8 +323,8 @@ impl<'p, 'r> Pairs<'p, 'r> {
         }
         let leaves = returns_to_caller(what);
         self.left |= leaves.is_some();
-        let left_out = makes_ready(self.target, what).or(leaves);
-        self.found.substituted.extend(left_out.clone());
+        let left_out = makes_ready(self.target, what).or(leaves.map(Some));
+        self.found.substituted.extend(left_out.clone().flatten());
         left_out.is_some()
     }
 

@@ -61,12 +61,13 @@ fn waits_at_bottom(target: &Side<'_>, source: &EventKind, op: Op) -> Option<(Op,
     ))
 }
 
-/// A tool that is made ready, where a tool word of the target changes the tool. Each change is compared by its tool.
-pub fn makes_ready(target: &Side<'_>, source: &EventKind) -> Option<String> {
+/// A tool that is made ready, where a tool word of the target changes the tool. Each change is compared by its tool. The text is none where
+/// the machine's profile has said so: then nobody has to accept it.
+pub fn makes_ready(target: &Side<'_>, source: &EventKind) -> Option<Option<String>> {
     let EventKind::ToolReady { tool } = source else { return None };
-    let row = target.control.behaviour(Question::ToolChangeWord);
-    row.is_some_and(|row| row.value == "t")
-        .then(|| format!("the source makes tool {tool} ready: the target has no word for that"))
+    let row = target.control.behaviour(Question::ToolChangeWord).filter(|row| row.value == "t")?;
+    let text = || format!("the source makes tool {tool} ready: the target has no word for that");
+    Some((!row.origin.is_settled()).then(text))
 }
 
 /// A return with no work offset in force, where the target always has one. The conversion marks the moves of the

@@ -100,6 +100,7 @@ impl<'a> Lowering<'a> {
         if nc.ops().filter(|op| *op == Op::Act).count() > 1 {
             return self.builders_codes(nc, site);
         }
+        self.settle_change(&mut nc, site.span);
         if self.drops_change(&mut nc) {
             if !site.comments.is_empty() || site.sequence.get().is_some() {
                 self.builder.push(StmtKind::Comment, site.clone());

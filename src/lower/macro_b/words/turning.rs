@@ -237,6 +237,22 @@ impl Lowering<'_> {
         (!plain).then(|| row.name.clone())
     }
 
+    /// Where the tool word changes the tool, a code for the change in its block is the same change.
+    pub fn settle_change(&mut self, nc: &mut Nc, span: Span) {
+        let by_word = self.codes.letter('T', false).is_some_and(|row| row.op == Some(Op::ToolChange));
+        if !by_word || !nc.has(Op::ToolChange) {
+            return;
+        }
+        if nc.word(Role::Tool).is_none() {
+            self.findings.not_understood(span, CHANGE_ALONE);
+        } else if nc.moves() {
+            self.findings.not_understood(span, CHANGE_AND_MOVE);
+        }
+        nc.items.retain(|item| *item != NcItem::Op(Op::ToolChange));
+        let named = nc.items.iter().position(|item| matches!(item, NcItem::Word(Role::Tool, _)));
+        nc.items.insert(named.map_or(0, |at| at + 1), NcItem::Op(Op::ToolChange));
+    }
+
     /// M6 of a lathe is not needed, and does nothing of its own (docs/lathe.md T8): it goes. True where nothing else is in its block.
     pub fn drops_change(&self, nc: &mut Nc) -> bool {
         if self.control.machine() != Machine::Lathe || !nc.has(Op::ToolChange) {
@@ -273,3 +289,9 @@ fn is_place(item: &NcItem) -> bool {
 fn is_no_allowance(item: &NcItem) -> bool {
     matches!(item, NcItem::Word(Role::StepX | Role::StepZ, value) if value.constant() == Some(0.0))
 }
+
+const CHANGE_ALONE: &str = "T changes the tool on this machine by itself, as its profile says, and no source says what a code for the change does \
+                            without one: write T into its block";
+
+const CHANGE_AND_MOVE: &str = "T changes the tool on this machine by itself, as its profile says, and no source says whether before the move of this \
+                               block or after it: give T a block of its own";
