@@ -6,6 +6,7 @@ pub(in crate::legalize) mod cutter_tables;
 pub(in crate::legalize) mod facts;
 mod from_home;
 pub(in crate::legalize) mod machine_places;
+pub(in crate::legalize) mod missing_axes;
 mod mistakes;
 mod moved_places;
 pub(in crate::legalize) mod runtime;

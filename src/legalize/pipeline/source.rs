@@ -5,7 +5,8 @@ use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LASTING_PECKS, LONE_P
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::canon::Op;
 use crate::legalize::assumptions::{
-    changes, cutter_tables, facts, machine_places, runtime, shop, top_speed, top_tool, unchanged_tools,
+    changes, cutter_tables, facts, machine_places, missing_axes, runtime, shop, top_speed, top_tool,
+    unchanged_tools,
 };
 use crate::legalize::calls::parts;
 use crate::legalize::cycles::{
@@ -147,6 +148,8 @@ pub(super) const SOURCE: &[Pass] = &[
         .when(top_speed::concerns),
     Pass::reports("top-tool", "tells of tools that the target's magazine does not hold", top_tool::run)
         .when(top_tool::concerns),
+    Pass::reports("missing-axes", "refuses words of axes that the target does not have", missing_axes::run)
+        .when(missing_axes::concerns),
     Pass::reports("unchanged-tools", "tells of tools that no program changes to", unchanged_tools::run)
         .when(unchanged_tools::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
