@@ -363,6 +363,8 @@ questions! {
     RadiusStillBlocks "radius.still.blocks" YES, "blocks without a move may stand between moves with cutter compensation, however many", if "said";
     ToolChangeWord "tool.change.word" OneOf(&["m6", "t", "unknown"]), "the word that changes the tool";
     ToolWordAgain "tool.word.again" OneOf(&["changes", "skipped", "unknown"]), "what a word that changes the tool does for the tool in the spindle", if "behaviour:tool.change.word=t";
+    ChangeWithoutTool "change.without.tool" OneOf(&["same", "pot", "alarm", "unknown"]), "what a code that changes the tool does where no tool was named since the last change: \
+        it takes the tool in the spindle again (same), the one that the last change put back and that waits (pot), or it is an alarm", if "behaviour:tool.change.word=m6";
     ToolWordSelectsLength "tool.word.selects.length" YES, "the tool word brings its length offset into force";
     SpindleRangeSuffix "spindle.range.suffix" YES, "a fraction of S picks the gear range and is not part \
                                                     of the speed";

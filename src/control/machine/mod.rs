@@ -43,7 +43,7 @@ pub use exit_state::ExitState;
 pub use frame::{Frame, Rotation};
 pub use lathe::{Contour, Contoured};
 pub use outside::LEFT;
-pub(super) use rules::Rules;
+pub(super) use rules::{BareChange, Rules};
 
 use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, SharedRows, Tool};
@@ -107,6 +107,10 @@ pub struct Machine {
     /// What stopped the program last, if nobody knows what it did with spindle and coolant, which ran.
     unsure_running: [Option<Pause>; 2],
     tool_ready: f64,
+    /// True if a tool was named since the last change, or none was changed yet.
+    tool_named: bool,
+    /// The tool that the last change put back.
+    tool_back: f64,
     tool: f64,
     tools: Table<Tool>,
     one_table: Option<Arc<SharedRows>>,
@@ -181,6 +185,8 @@ impl Machine {
             coolant: Op::CoolantOff,
             unsure_running: [None; 2],
             tool_ready: f64::from(scenario.tool),
+            tool_named: true,
+            tool_back: f64::from(scenario.tool),
             tool: f64::from(scenario.tool),
             tools: one_table::tools(scenario),
             one_table: scenario.one_table.clone(),
@@ -238,6 +244,10 @@ impl Machine {
     pub fn run(&mut self, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
         if self.rules.lathe && lathe::waiting::takes(self, command, trace)? {
             return Ok(());
+        }
+        let bare = command.has(Op::ToolChange) && command.word(Role::Tool).is_none();
+        if bare && !self.tool_named && self.rules.bare_change.peek() == BareChange::Alarm {
+            return Err(Stop::unnamed("a tool change without a tool"));
         }
         block::run(self, command, trace)
     }

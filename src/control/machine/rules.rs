@@ -8,7 +8,7 @@ use super::rigid::Taps;
 use crate::canon::{Act, Auxiliary, Op, Pause, Role, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, MachinePlaces, Question};
-pub use answers::{LengthAfter, NoCentre, RadiusTable};
+pub use answers::{BareChange, LengthAfter, NoCentre, RadiusTable};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -138,6 +138,8 @@ pub struct Rules {
     pub tool_word_changes: Fact<bool>,
     /// The word changes the tool that is in the spindle anew.
     pub tool_word_again: Fact<bool>,
+    /// What a change without a tool that was named takes.
+    pub bare_change: Fact<BareChange>,
     pub tool_word_selects_length: Fact<bool>,
     pub cutter_takes_tool: Fact<bool>,
     pub length_picks_radius: Fact<bool>,
@@ -298,13 +300,8 @@ impl Rules {
             // Where it is a setting nobody stated, as conversions take it.
             radius_table: fact(control, Question::RadiusOffsetTable, table, RadiusTable::Diameter),
             tool_word_changes: fact(control, Question::ToolChangeWord, |value| Some(value == "t"), false),
-            tool_word_again: fact(
-                control,
-                Question::ToolWordAgain,
-                |value| ["changes", "skipped"].contains(&value).then_some(value == "changes"),
-                true,
-            )
-            .or_silent(control, Question::ToolWordAgain),
+            tool_word_again: answers::tool_again(control),
+            bare_change: answers::bare_change(control),
             tool_word_selects_length: yes(control, Question::ToolWordSelectsLength, false),
             cutter_takes_tool: yes(control, Question::RadiusOffsetActiveTool, false),
             length_picks_radius: yes(control, Question::LengthWordPicksRadius, false),

@@ -1,7 +1,7 @@
 //! The tool, and compensation.
 
 use super::motion::LENGTH_AXIS;
-use super::rules::{LengthAfter, RadiusTable};
+use super::rules::{BareChange, LengthAfter, RadiusTable};
 use super::{Command, Machine};
 use crate::canon::{Op, Pause, Role};
 use crate::control::scenario::AXES;
@@ -55,6 +55,7 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
         return apply_length(machine, trace);
     }
     machine.tool_ready = tool;
+    machine.tool_named = true;
     let coded = command.has(Op::ToolChange);
     if !by_word && !coded {
         trace.push(EventKind::ToolReady { tool });
@@ -75,8 +76,14 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
 
 /// Puts the tool that is ready into the spindle.
 pub(super) fn change(machine: &mut Machine, trace: &mut Trace) {
+    let before = machine.tool;
+    let named = std::mem::take(&mut machine.tool_named);
+    if !named && machine.rules.bare_change.ask(trace) == BareChange::Pot {
+        machine.tool_ready = machine.tool_back;
+    }
     let same = machine.tool == machine.tool_ready;
     machine.tool = machine.tool_ready;
+    machine.tool_back = before;
     machine.pause(Pause::Change, EventKind::ToolChange { tool: machine.tool }, trace);
     if same {
         trace.tell(Told::SameTool);

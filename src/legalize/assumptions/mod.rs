@@ -1,5 +1,6 @@
 //! What a conversion takes for granted of the controls and of a run.
 
+pub(in crate::legalize) mod bare_changes;
 pub(in crate::legalize) mod barred;
 pub(in crate::legalize) mod changes;
 pub(in crate::legalize) mod cutter_tables;

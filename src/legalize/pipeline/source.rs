@@ -5,8 +5,8 @@ use super::lathe::{HELD_HOLES, HOLE_CODES, INTERPOLATIONS, LASTING_PECKS, LONE_P
 use super::moves::{LATER_LENGTHS, NAMED_LENGTHS};
 use crate::canon::Op;
 use crate::legalize::assumptions::{
-    changes, cutter_tables, facts, machine_places, missing_axes, runtime, shop, top_speed, top_tool,
-    unchanged_tools,
+    bare_changes, changes, cutter_tables, facts, machine_places, missing_axes, runtime, shop, top_speed,
+    top_tool, unchanged_tools,
 };
 use crate::legalize::calls::parts;
 use crate::legalize::cycles::{
@@ -150,6 +150,8 @@ pub(super) const SOURCE: &[Pass] = &[
         .when(top_tool::concerns),
     Pass::reports("missing-axes", "refuses words of axes that the target does not have", missing_axes::run)
         .when(missing_axes::concerns),
+    Pass::reports("bare-changes", "tells of tool changes for which no tool was named", bare_changes::run)
+        .when(bare_changes::concerns),
     Pass::reports("unchanged-tools", "tells of tools that no program changes to", unchanged_tools::run)
         .when(unchanged_tools::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)

@@ -1,5 +1,6 @@
 //! Answers that are more than yes or no.
 
+use super::{Fact, fact};
 use crate::dialect::{Control, Machine, Question};
 
 /// What the offset values of cutter radii are.
@@ -29,6 +30,40 @@ pub enum NoCentre {
     Alarm,
     /// A straight move.
     Straight,
+}
+
+/// What a tool change does where no tool was named since the last one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BareChange {
+    /// It takes the tool in the spindle again.
+    Same,
+    /// It takes the tool that the last change put back.
+    Pot,
+    /// It is an alarm.
+    Alarm,
+}
+
+/// What a tool change does where no tool was named since the last one; a silent table is like most.
+pub(super) fn bare_change(control: &Control) -> Fact<BareChange> {
+    let read = |value: &str| match value {
+        "same" => Some(BareChange::Same),
+        "pot" => Some(BareChange::Pot),
+        "alarm" => Some(BareChange::Alarm),
+        _ => None,
+    };
+    let question = Question::ChangeWithoutTool;
+    fact(control, question, read, BareChange::Same).or_silent(control, question)
+}
+
+/// Whether a word that changes the tool does so for the tool in the spindle; a silent table is like most.
+pub(super) fn tool_again(control: &Control) -> Fact<bool> {
+    let read = |value: &str| match value {
+        "changes" => Some(true),
+        "skipped" => Some(false),
+        _ => None,
+    };
+    let question = Question::ToolWordAgain;
+    fact(control, question, read, true).or_silent(control, question)
 }
 
 /// True for a control that answers a question so.
