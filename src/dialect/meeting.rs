@@ -3,7 +3,7 @@
 use super::control::Control;
 use super::site::{SiteCode, Without};
 use super::spelling::{Beside, CodeHead};
-use super::{CodeMeaning, faults_as_text, site_rows};
+use super::{CodeMeaning, faults_as_text, site_rows, standing_results};
 use crate::canon::{Act, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
@@ -20,9 +20,15 @@ impl Control {
     /// terms.
     ///
     /// # Errors
-    /// If the target has no such code, or one of another kind.
-    pub fn meeting(mut source: Self, target: Self) -> Result<(Self, Self), NoMeeting> {
+    /// If the target has no such code, or one of another kind, or results of programs that stand there are no variables of the source.
+    pub fn meeting(mut source: Self, mut target: Self) -> Result<(Self, Self), NoMeeting> {
         source.places_there.clone_from(&target.machine_places);
+        match standing_results::met(&source, &target) {
+            Ok(results) => target.standing_results = results,
+            Err((line, why)) => {
+                return Err(target.no_meeting(&format!("standing_results:{line}"), why, "target"));
+            }
+        }
         let named: Vec<(SiteCode, String)> =
             (source.profile.site.iter()).filter_map(|site| Some((site.clone(), there(site)?))).collect();
         if named.is_empty() {
@@ -47,20 +53,11 @@ impl Control {
                     None => site_rows::lay(&mut theirs, row),
                 },
                 Ok(Met::Source(row)) => site_rows::lay(&mut ours, row),
-                Err(message) => {
-                    let span =
-                        source.profile.places.get(&format!("site:{}", site.code)).cloned().unwrap_or(0..0);
-                    let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-                    let span = Span::new(offset(span.start), offset(span.end));
-                    faults.push(Diagnostic::new(Code::MachineProfile, span, message));
-                }
+                Err(message) => faults.push(source.fault_at(&format!("site:{}", site.code), message)),
             }
         }
         if !faults.is_empty() {
-            let path = source.profile.file.as_deref();
-            let text = path.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
-            let name = path.map_or_else(|| "the source's profile".into(), |path| path.display().to_string());
-            return Err(NoMeeting(faults_as_text(&name, &text, &faults).trim_end().to_owned()));
+            return Err(source.no_meeting_of(&faults, "source"));
         }
         let again = |control: Self, dialect| {
             let (start, marks) = (control.start, (control.reserved, control.standing));
@@ -73,6 +70,25 @@ impl Control {
             made
         };
         Ok((again(source, ours), again(target, theirs)))
+    }
+
+    /// What is wrong at a place of the machine's profile.
+    fn fault_at(&self, place: &str, message: String) -> Diagnostic {
+        let span = self.profile.places.get(place).cloned().unwrap_or(0..0);
+        let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+        Diagnostic::new(Code::MachineProfile, Span::new(offset(span.start), offset(span.end)), message)
+    }
+
+    fn no_meeting(&self, place: &str, message: String, side: &str) -> NoMeeting {
+        self.no_meeting_of(&[self.fault_at(place, message)], side)
+    }
+
+    /// Faults of the machine's profile, as people read them.
+    fn no_meeting_of(&self, faults: &[Diagnostic], side: &str) -> NoMeeting {
+        let path = self.profile.file.as_deref();
+        let text = path.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
+        let name = path.map_or_else(|| format!("the {side}'s profile"), |path| path.display().to_string());
+        NoMeeting(faults_as_text(&name, &text, faults).trim_end().to_owned())
     }
 }
 

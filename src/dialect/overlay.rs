@@ -4,7 +4,9 @@ use super::extents;
 use super::overlay_settings::settle_tool_words;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
-use super::{Behaviour, Control, Dialect, Entry, Mark, Question, SystemVariable, VariableClass, registry};
+use super::{
+    Behaviour, Control, Dialect, Entry, Mark, Question, SameCells, SystemVariable, VariableClass, registry,
+};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -35,11 +37,13 @@ impl Control {
         let reserved = overlay.reserved(&table, &dialect);
         let has_locals = dialect.variables.iter().any(|class| class.class == "local");
         let standing = overlay.standing(dialect.text.program_max, has_locals);
-        let shared = |number| {
-            let rows =
+        let shared = |number: u32| {
+            let is_space = |name: &String| Some(name) == dialect.names.numbered.as_ref();
+            let twice = |row: &&SameCells| is_space(&row.name) && (row.first..=row.last).contains(&number);
+            let cell = dialect.same_cells.iter().find(twice).map_or(number, |row| row.cell_of(number));
+            let mut rows =
                 dialect.variables.iter().filter(|row| !matches!(row.class.as_str(), "local" | "letter"));
-            rows.filter(|row| Some(&row.name) == dialect.names.numbered.as_ref())
-                .any(|row| (row.first..=row.last).contains(&number))
+            rows.any(|row| is_space(&row.name) && (row.first..=row.last).contains(&cell)).then_some(cell)
         };
         let standing_results = overlay.standing_results(dialect.names.numbered.as_deref(), &shared);
         let machine_places = overlay.machine_places();

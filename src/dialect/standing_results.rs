@@ -4,6 +4,7 @@
 
 use super::Control;
 use super::overlay::Overlay;
+use std::collections::BTreeSet;
 
 /// What stands between the numbers of the source and those here.
 const AS: &str = " as ";
@@ -51,6 +52,55 @@ impl StandingResults {
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
+
+    /// Adds a variable of the source and its number here; false where that contradicts what is said.
+    fn add(&mut self, there: u32, here: u32) -> bool {
+        if let Some(known) = self.of(there) {
+            return known == here;
+        }
+        match self.0.last_mut() {
+            Some(run) if run.there.1.checked_add(1) == Some(there) && run.last_here() + 1 == here => {
+                run.there.1 = there;
+            }
+            _ => self.0.push(Run { there: (there, there), here }),
+        }
+        true
+    }
+}
+
+/// True for the number of a common variable.
+fn is_common(control: &Control, number: u32) -> bool {
+    control.numbered_class(number).is_some_and(|row| !matches!(row.class.as_str(), "local" | "letter"))
+}
+
+/// What the target's profile says of results, by the numbers of the cells that the source has: a control may number a variable twice.
+///
+/// # Errors
+/// A line that names no common variable of the source, or one that another line gives another number: the line, and why.
+pub(super) fn met(source: &Control, target: &Control) -> Result<StandingResults, (String, String)> {
+    let (name, title) = (target.numbered().unwrap_or_default(), &source.dialect().title);
+    let mut all = StandingResults::default();
+    for text in &target.profile.standing_results {
+        let Some(run) = read(text, name) else { continue };
+        for number in run.there.0..=run.there.1 {
+            let cell = source.numbered().map_or(number, |space| source.cell(space, number));
+            if !is_common(source, cell) {
+                let why = format!("'{text}': the source, {title}, has no common variable {name}{number}");
+                return Err((text.clone(), why));
+            }
+            let here = run.here + (number - run.there.0);
+            if !all.add(cell, target.cell(name, here)) {
+                let what = match cell == number {
+                    true => format!("another line gives {name}{number} another number"),
+                    false => {
+                        format!("{name}{number} is {name}{cell}, to which another line gives another number")
+                    }
+                };
+                return Err((text.clone(), format!("'{text}': {what}")));
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// The most variables of a run: no maker's macros have more.
@@ -77,14 +127,14 @@ fn number(text: &str, name: &str) -> Option<u32> {
 }
 
 impl Overlay {
-    /// The results of programs that stand in the machine. `name` stands before a variable's number, and `has` is true for the numbers of its
-    /// common variables.
+    /// The results of programs that stand in the machine. `name` stands before a variable's number, and `cell` gives the cell that
+    /// a number of a common variable names.
     pub(super) fn standing_results(
         &mut self,
         name: Option<&str>,
-        has: &dyn Fn(u32) -> bool,
+        cell: &dyn Fn(u32) -> Option<u32>,
     ) -> StandingResults {
-        let mut all = StandingResults::default();
+        let (mut all, mut cells) = (StandingResults::default(), BTreeSet::new());
         for text in self.profile.standing_results.clone() {
             let name = name.unwrap_or_default();
             let form = format!(
@@ -93,9 +143,9 @@ impl Overlay {
             let fault = match read(&text, name).filter(|_| !name.is_empty()) {
                 None => Some((format!("'{text}' is no run of variables and its numbers here"), form)),
                 Some(run) => {
-                    let missing = (run.here..=run.last_here()).find(|number| !has(*number));
+                    let missing = (run.here..=run.last_here()).find(|number| cell(*number).is_none());
                     let twice = (run.there.0..=run.there.1).any(|number| all.of(number).is_some())
-                        || (run.here..=run.last_here()).any(|number| all.here().any(|here| here == number));
+                        || (run.here..=run.last_here()).filter_map(cell).any(|cell| cells.contains(&cell));
                     match (missing, twice) {
                         (Some(number), _) => Some((
                             format!("'{text}': this control has no common variable {name}{number}"),
@@ -106,7 +156,11 @@ impl Overlay {
                             "name each variable once".into(),
                         )),
                         (None, false) => {
-                            all.0.push(run);
+                            cells.extend((run.here..=run.last_here()).filter_map(cell));
+                            for number in run.there.0..=run.there.1 {
+                                let here = run.here + (number - run.there.0);
+                                all.add(number, cell(here).unwrap_or(here));
+                            }
                             None
                         }
                     }

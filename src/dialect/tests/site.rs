@@ -120,6 +120,25 @@ fn the_source_names_codes_of_the_target() {
     assert!(word.contains("takes no word Q"), "{word}");
 }
 
+#[test]
+fn results_name_variables_of_the_source_by_either_of_their_numbers() {
+    let meeting = |lines: &str| {
+        let target =
+            Control::from_profile(&format!("dialect = \"fanuc\"\nstanding_results = [{lines}]\n")).unwrap();
+        Control::meeting(Control::plain("haas").unwrap(), target).map_err(|error| error.to_string())
+    };
+    let (_, target) = meeting("\"#10187-#10188 as #137-#138\", \"#189 as #139\"").unwrap();
+    let results = target.standing_results();
+    assert_eq!(
+        [187, 188, 189, 10187].map(|number| results.of(number)),
+        [Some(137), Some(138), Some(139), None]
+    );
+    let none = meeting("\"#10150 as #150\", \"#12087 as #137\"").unwrap_err();
+    assert!(none.contains("'#12087 as #137': the source, Haas, has no common variable #12087"), "{none}");
+    let twice = meeting("\"#10187 as #137\", \"#187 as #138\"").unwrap_err();
+    assert!(twice.contains("another line gives #187 another number"), "{twice}");
+}
+
 /// A line of `[codes]` is a row of `[[site]]`, and faults stand at their lines.
 #[test]
 fn a_line_of_codes_is_a_row() {
