@@ -146,8 +146,14 @@ impl<'a> Pool<'a> {
             let key = |n: &u32| (shunned(*n), self.distance(var, *n));
             free.iter().copied().min_by_key(key)
         };
+        let apart = |number: &u32| !self.supposed.contains(*number);
+        let scratch = || self.scratch.iter().copied().filter(again);
         let back = before.filter(|number| self.fits(class, *number));
-        let number = back.or_else(|| self.scratch.iter().copied().find(again)).or_else(best)?;
+        let number = back
+            .or_else(|| scratch().find(apart))
+            .or_else(|| best().filter(apart))
+            .or_else(|| scratch().next())
+            .or_else(best)?;
         self.used.insert(number);
         Some(number)
     }

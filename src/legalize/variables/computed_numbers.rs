@@ -10,9 +10,11 @@
 mod alike;
 mod found;
 mod meaning;
+mod near;
 mod numbers;
 mod shared;
 mod shift;
+mod told;
 mod written;
 
 use crate::canon::Sys;
@@ -44,6 +46,8 @@ pub struct Reached {
     pub sure: analysis::Numbers,
     /// What is supposed of the others, by program.
     open: Vec<(usize, Found)>,
+    /// Blocks of variables that those of which nothing is supposed are counted from.
+    near: analysis::Numbers,
     /// What both controls mean by each number, once it is known.
     table: Table,
 }
@@ -58,9 +62,11 @@ impl Reached {
         all
     }
 
-    /// Numbers that some are supposed to be: registers are taken elsewhere, where there are any.
+    /// Numbers that some are supposed to be, or are counted from: registers are taken elsewhere, where there are any.
     pub fn supposed(&self) -> analysis::Numbers {
-        analysis::Numbers::of(self.open.iter().filter_map(|(_, found)| found.finding.run()))
+        let mut all = analysis::Numbers::of(self.open.iter().filter_map(|(_, found)| found.finding.run()));
+        all.join(&self.near);
+        all
     }
 }
 
@@ -79,13 +85,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let all = look_with(module, numbers, look);
     let mut reached = Reached { table: table.clone(), ..Reached::default() };
     let mut moving: Vec<usize> = Vec::new();
+    let mut unbounded: Vec<(usize, Expr)> = Vec::new();
     for (index, looked) in all.into_iter().enumerate() {
         looked.tell(index, context);
         looked.rests.iter().for_each(|(var, span)| shared.tell(index, *span, *var, context));
         reached.sure.join(&looked.sure);
         reached.open.extend(looked.open.into_iter().map(|found| (index, found)));
+        unbounded.extend(looked.unbounded.into_iter().map(|number| (index, number)));
         moving.extend(looked.moves.then_some(index));
     }
+    reached.near = near::blocks(module, &unbounded, source);
     context.reached = reached;
     let mut numbers = numbers();
     moving.into_iter().filter(|index| shift(&mut module.programs[*index], &mut numbers)).collect()
@@ -98,6 +107,8 @@ struct Looked {
     sure: analysis::Numbers,
     /// What is supposed of the others.
     open: Vec<Found>,
+    /// Those of which nothing is known.
+    unbounded: Vec<Expr>,
     /// All that is known of any, with its place.
     known: Vec<(Finding, Span)>,
     /// The shared variables that it rests on, with the first place of each.
@@ -151,6 +162,9 @@ impl Looked {
             }
             let Some(finding) = finding else { return };
             looked.known.push((finding.clone(), span));
+            if !sure && finding == Finding::Any && !looked.unbounded.contains(number) {
+                looked.unbounded.push(number.clone());
+            }
             if !sure && !matches!(finding, Finding::Other(_)) {
                 Found::note(&mut looked.open, finding, span, constant_part(number).unwrap_or_default());
             }
@@ -184,7 +198,7 @@ impl Looked {
                     if stated { told } else { told.lacking(format!("{setting}={value}")) }
                 }
                 None => {
-                    let (code, what) = finding.told(context, &analysis::Numbers::default(), false);
+                    let (code, what) = finding.told(context, &analysis::Numbers::default(), &[]);
                     Diagnostic::new(code, *span, what)
                 }
             };
@@ -209,8 +223,12 @@ pub fn report(_: &Module, context: &mut Context<'_>) {
         let at = known.iter().position(|(finding, _)| *finding == found.finding).unwrap_or_else(|| {
             let supposed = found.finding.supposed(&numbers);
             let safe = supposed.without(taken.iter().copied());
-            let hit = safe != supposed;
-            let (code, what) = found.finding.told(context, &safe, hit);
+            let mut hits: Vec<u32> =
+                taken.iter().copied().filter(|number| supposed.contains(*number)).collect();
+            hits.sort_unstable();
+            hits.dedup();
+            let hit = !hits.is_empty();
+            let (code, what) = found.finding.told(context, &safe, &hits);
             known.push((found.finding.clone(), Supposed { safe, hit, code, what: what.into() }));
             known.len() - 1
         });
@@ -290,70 +308,6 @@ impl Finding {
             other => analysis::Numbers::of(other.run()),
         }
     }
-
-    /// What is told of it, where the numbers in `safe` mean the same; `hit` where registers were taken among them.
-    /// Why a number is no variable for programs on the target, or is another one.
-    fn why_other(&self, context: &Context<'_>, number: u32) -> String {
-        let spelt = context.source.names().numbered.clone().unwrap_or_default();
-        if context.target.is_reserved(&spelt, number) {
-            return "'reserved' of the target's profile keeps from programs: take it out of that list if nothing on the machine \
-                    uses it, or give the programs other numbers"
-                .to_owned();
-        }
-        format!("is another variable on {}", context.target.dialect().title)
-    }
-
-    fn told(&self, context: &Context<'_>, safe: &analysis::Numbers, hit: bool) -> (Code, String) {
-        let title = &context.target.dialect().title;
-        match *self {
-            Finding::Alike(..) if hit => (
-                Code::Conditional,
-                format!(
-                    "the number of a variable is computed: it must be one of {safe}; the conversion uses \
-                     other numbers itself"
-                ),
-            ),
-            Finding::Alike(first, last) => (
-                Code::Conditional,
-                must_stay(context.source, first, last)
-                    + &format!("; other numbers are other variables on {title}"),
-            ),
-            Finding::Shifted(state, first, last, by) => {
-                let there = |n: u32| i64::from(n) + by;
-                (
-                    Code::Conditional,
-                    format!(
-                        "{} ('{state}'), which are {} to {} on {title}",
-                        must_stay(context.source, first, last),
-                        named(context.target, there(first)),
-                        named(context.target, there(last))
-                    ),
-                )
-            }
-            Finding::Counted(state, first, last, _) => {
-                (Code::Conditional, format!("{} ('{state}')", must_stay(context.source, first, last)))
-            }
-            Finding::Other(number) => (
-                Code::NoEquivalent,
-                format!(
-                    "the number of a variable is computed, and it may be or start from {}, which {}",
-                    named(context.source, number.into()),
-                    self.why_other(context, number)
-                ),
-            ),
-            Finding::Any if safe.last().is_none() => (
-                Code::NoEquivalent,
-                format!("the number of a variable is computed, and no number means the same on {title}"),
-            ),
-            Finding::Any => (
-                Code::Conditional,
-                format!(
-                    "the number of a variable is computed: it must be one of {safe}, which are the same \
-                     on {title}"
-                ),
-            ),
-        }
-    }
 }
 
 /// True where all these numbers are the system's, and the first is a row of a table that is counted.
@@ -364,11 +318,6 @@ fn is_table(source: &Control, first: u32, last: u32) -> bool {
         })
     };
     counted(first) && counted(last) && (first..=last).all(|number| source.numbered_class(number).is_none())
-}
-
-fn must_stay(source: &Control, first: u32, last: u32) -> String {
-    let [first, last] = [first, last].map(|number| named(source, number.into()));
-    format!("the number of a variable is computed: it must stay in {first} to {last}")
 }
 
 /// A variable of the space that computed numbers reach, as the control writes it.

@@ -30,7 +30,7 @@ pub use all::{Apart, differences};
 #[cfg(test)]
 pub use exit_state::seen_differs;
 pub use found::Difference;
-pub use kinds::{is_cut, returns};
+pub use kinds::{is_cut, is_move, is_pause, returns, setting};
 pub use pairs::compare;
 pub use shown::lacks_messages;
 pub use substitutes::lacks;

@@ -11,7 +11,7 @@ use crate::canon::Op;
 use crate::control::trace::{Event, EventKind, ODD_SPEED};
 use crate::control::{End, ProgramRef, Run};
 use crate::text::Span;
-use crate::verify::compare::Difference;
+use crate::verify::compare::{Difference, is_move, is_pause, setting};
 use crate::verify::sides::{Assumptions, Job, Side, SymbolMap};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -102,7 +102,8 @@ pub fn told_substitutes(job: &Job<'_>, run: &Run) -> BTreeSet<Op> {
 /// that is assumed so far, or the target was not there yet.
 pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Difference<'_>) -> Option<String> {
     let place_in = |run: &Run, at: Option<&Event>| {
-        at.and_then(|event| run.events.iter().position(|e| std::ptr::eq(e, event)))
+        let at = run.events.iter().position(|e| at.is_some_and(|event| std::ptr::eq(e, event)))?;
+        Some(counts_at(run, at))
     };
     let (place, there) = (place_in(run, difference.source), place_in(other, difference.target));
     let too_deep = matches!(&other.end, End::Alarm { stop, .. } if stop.nesting.is_some());
@@ -119,6 +120,16 @@ pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Differen
         }
         _ => None,
     })
+}
+
+/// Where in a run an event counts: a setting does at the next move or stop, which may be what one side alone does.
+fn counts_at(run: &Run, at: usize) -> usize {
+    if run.events.get(at).is_none_or(|event| setting(&event.what).is_none()) {
+        return at;
+    }
+    let acts = |event: &Event| is_move(&event.what) || is_pause(&event.what);
+    let next = run.events.iter().skip(at).position(acts);
+    next.map_or(run.events.len().saturating_sub(1), |after| at + after)
 }
 
 /// What a run of the source shows.

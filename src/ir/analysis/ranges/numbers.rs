@@ -75,6 +75,11 @@ impl Numbers {
     /// In words, where this stands before the number of a variable: `V1-V33, V100`. Runs of one length at one distance, as the
     /// axes of work offsets are, are told by the first and the last: `#5221-#5225 and so on by 20 to #5321-#5325`.
     pub fn in_words(&self, name: &str) -> String {
+        self.words(name).join(", ")
+    }
+
+    /// The same, each range by itself.
+    pub fn words(&self, name: &str) -> Vec<String> {
         let word = |(first, last): (u32, u32)| match first == last {
             true => format!("{name}{first}"),
             false => format!("{name}{first}-{name}{last}"),
@@ -92,7 +97,7 @@ impl Numbers {
                 rest = after;
             }
         }
-        words.join(", ")
+        words
     }
 }
 
