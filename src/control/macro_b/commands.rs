@@ -294,7 +294,12 @@ impl<'c> Runner<'c> {
                     None => Err(Halt::Error("a call without its program".into())),
                 },
                 Op::CallLocal => match value(Role::Sequence) {
-                    Some(sequence) => self.call_local(sequence, value(Role::CallCount)),
+                    Some(sequence) => {
+                        if words.words.iter().any(|word| word.letter == 'P' && !word.form.is_literal()) {
+                            self.session.trace.computed_code('P', sequence);
+                        }
+                        self.call_local(sequence, value(Role::CallCount))
+                    }
                     None => Err(Halt::Error("a call without its sequence number".into())),
                 },
                 Op::JumpInputOff => {

@@ -14,6 +14,8 @@ pub struct Callees {
     pub programs: Vec<usize>,
     /// True where it is known to be one of them.
     pub known: bool,
+    /// True where every number that it may be is that of one of them.
+    pub all: bool,
 }
 
 impl Callees {
@@ -137,11 +139,15 @@ pub fn computed_calls(module: &Module) -> BTreeMap<(usize, BlockId), Callees> {
     let mut found = BTreeMap::new();
     for (index, id, block) in blocks {
         let ranges = ranges.entry(index).or_insert_with(|| Ranges::of(&module.programs[index], &summaries));
-        let mut callees = Callees { programs: Vec::new(), known: true };
+        let mut callees = Callees { programs: Vec::new(), known: true, all: true };
         for (at, number) in numbers(block) {
             let values = ranges.at(id, at, number);
             callees.known &= matches!(values, Values::Few(_));
-            callees.programs.extend(programs(module, &values));
+            let programs = programs(module, &values);
+            let numbers = |(first, last): &(u32, u32)| u64::from(last - first) + 1;
+            let count: u64 = values.numbers().runs().iter().map(numbers).sum();
+            callees.all &= callees.known && count == programs.len() as u64;
+            callees.programs.extend(programs);
         }
         callees.programs.sort_unstable();
         callees.programs.dedup();

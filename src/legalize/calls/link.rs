@@ -9,6 +9,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
+use crate::ir::analysis::computed_calls::computed_calls;
 use crate::ir::{Call, Callee, Module, StmtKind, TermKind};
 use crate::legalize::calls::{merged, standing};
 use crate::legalize::registers::needs::has_locals;
@@ -16,6 +17,7 @@ use crate::legalize::{Context, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use foldhash::HashSet;
+use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports calls of what is not there.
@@ -49,11 +51,14 @@ fn report(module: &Module, context: &mut Context<'_>) -> BTreeSet<(usize, Span)>
     let mut without = BTreeSet::new();
     stand_there(module, context);
     let known: HashSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    let computed = LazyCell::new(|| computed_calls(module));
     for (index, program) in module.programs.iter().enumerate() {
-        for block in &program.blocks {
+        for (id, block) in program.ids().zip(&program.blocks) {
             for call in calls_of(block) {
                 let span = span_of(block, call);
                 match &call.callee {
+                    // Every program that it may call is here.
+                    Callee::Computed(_) if computed.get(&(index, id)).is_some_and(|callees| callees.all) => {}
                     Callee::Program(name @ ProgramName::Number(_))
                         if !known.contains(name)
                             && !call.arguments.is_empty()

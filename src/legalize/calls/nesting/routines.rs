@@ -1,6 +1,7 @@
 //! What can be called in a library, and how deep that nests.
 
 use crate::ir::analysis::CallGraph;
+use crate::ir::analysis::computed_calls::computed_calls;
 use crate::ir::{BlockId, Callee, Module, StmtKind, TermKind};
 use crate::legalize::{reachable, span_of};
 use crate::syntax::ProgramName;
@@ -60,6 +61,7 @@ impl Routines {
         let named: BTreeMap<&ProgramName, usize> =
             module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.as_ref()?, at))).collect();
         let mut found = Found::default();
+        let computed = computed_calls(module);
         let mains = (0..module.programs.len()).map(|at| found.place((at, BlockId(0)), &[])).collect();
         let mut all = Self { calls: Vec::new(), callers: Vec::new(), mains, crowded: false };
         while let Some((entry, inherited)) = found.order.get(all.calls.len()).cloned() {
@@ -99,9 +101,18 @@ impl Routines {
                     edges.push(Edge { to: found.place(*to, &inherited[..depth]), level: true, span });
                 }
             }
-            for block in blocks() {
+            for id in reachable(program, first) {
+                let Some(block) = program.block(id) else { continue };
                 if let TermKind::Call { call, .. } = &block.term.kind {
                     let (level, span) = (call.level, span_of(block, call));
+                    let by_number = matches!(call.callee, Callee::Computed(_));
+                    if let Some(callees) = computed.get(&(at, id)).filter(|callees| by_number && callees.all)
+                    {
+                        for to in &callees.programs {
+                            edges.push(Edge { to: found.place((*to, BlockId(0)), &under), level, span });
+                        }
+                        continue;
+                    }
                     edges.push(Edge { to: found.place(callee(&call.callee), &under), level, span });
                     // What is computed may be the very program.
                     if let Callee::Computed(_) = call.callee {

@@ -50,6 +50,8 @@ pub struct Lowering<'a> {
     pub known: RolesUnder,
     /// Index of the block being lowered.
     pub at: usize,
+    /// The first block of the program.
+    pub start: usize,
     /// The block after the last one of the program.
     pub end: usize,
     /// True in a program that a code calls, where such codes call nothing.
@@ -152,6 +154,7 @@ impl<'a> Lowering<'a> {
             motion: Motion::default(),
             known: RolesUnder::default(),
             at: piece.body.start,
+            start: piece.body.start,
             end: piece.body.end,
             aliased,
             signed: false,

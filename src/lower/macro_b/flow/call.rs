@@ -11,7 +11,7 @@ use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::codes::CodeId;
 use crate::lower::macro_b::expressions::At;
 use crate::lower::macro_b::parts::Words;
-use crate::syntax::{ProgramName, Word};
+use crate::syntax::{Expr as Expression, ProgramName, Word};
 use crate::text::Span;
 
 /// A code that leaves the block, and where it stands among the words.
@@ -26,6 +26,14 @@ pub struct Parts<'a> {
     own: Vec<(Role, &'a Word, Span)>,
     /// The words that are not the call's.
     pub rest: Words<'a>,
+}
+
+impl<'a> Parts<'a> {
+    /// The value of a call's word as it is written.
+    fn written(&self, role: Role) -> Option<&'a Expression> {
+        let (_, word, _) = self.own.iter().find(|(other, _, _)| *other == role)?;
+        word.value.as_ref()
+    }
 }
 
 impl<'a> Lowering<'a> {
@@ -184,11 +192,10 @@ impl<'a> Lowering<'a> {
             (None, Some(sequence)) => match sequence.constant().and_then(whole) {
                 Some(number) => Some(Callee::Block(self.target(number, site.span))),
                 None => {
-                    self.findings.not_understood(
-                        site.span,
-                        "the number of the called block is computed: write the number",
-                    );
-                    None
+                    let written = parts.written(Role::Sequence);
+                    self.check_beside_call(flow, &parts.rest);
+                    self.run_first(&parts, site);
+                    return self.call_computed_block(written, &sequence, count.as_ref(), site);
                 }
             },
             (Some(program), Some(sequence)) => self.part_of_program(&program, &sequence, site.span),
@@ -339,7 +346,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// True where a subprogram does not see its caller's locals.
-    fn has_own_locals(&mut self, site: &SourceInfo) -> bool {
+    pub fn has_own_locals(&mut self, site: &SourceInfo) -> bool {
         let answer = self.findings.behaviour(Question::LocalsSharedBySubprogram, site.span);
         if answer.is_none() {
             self.unknown_behaviour(Question::LocalsSharedBySubprogram, site.span);
@@ -347,7 +354,8 @@ impl<'a> Lowering<'a> {
         answer == Some("false")
     }
 
-    fn call(&mut self, call: Call, modal: bool, site: &SourceInfo) {
+    /// Calls at once, or from here on after each move.
+    pub fn call(&mut self, call: Call, modal: bool, site: &SourceInfo) {
         // What is called may leave another motion mode behind.
         self.motion.join();
         if modal {
