@@ -34,7 +34,7 @@ use lay::{Again, lay};
 pub(in crate::legalize) use related::related;
 use related::{spread, started};
 use std::collections::BTreeMap;
-use switched::Switched;
+use switched::{Switched, Switches};
 use touched::{Touched, Touches};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
@@ -137,6 +137,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     let passes = context.target.skips_same_tool() && !context.source.skips_same_tool();
     let after = After::of(module, &facts, [context.source, context.target]);
     let touches = OverCalls::of(module, &Touches([context.source, context.target]));
+    let switches = Switches::of(module, &context.entry);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| asks(index, block)) {
             let mut place = Place {
@@ -151,7 +152,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 lost: lost[index],
                 after: &after,
                 again: Vec::new(),
-                switched: Switched::default(),
+                switched: switches.at(index, id).copied().unwrap_or_else(Switched::unknown),
                 tool: None,
                 touched: touches.at(index, id).copied().unwrap_or_default(),
                 stood_in: false,
@@ -208,7 +209,7 @@ impl Place<'_> {
         let mut found = BTreeMap::new();
         for (number, stmt) in block.stmts.iter().enumerate() {
             let pause = pause_of(&stmt.kind);
-            self.switched.step(stmt, &self.state);
+            self.switched.step(stmt);
             self.state.step(stmt);
             self.touched.step(stmt, [context.source, context.target]);
             let before = self.tool;
@@ -323,7 +324,10 @@ impl Place<'_> {
             let shows = self.after.shows(self.index, self.id, number, running);
             let known_under = known && again.is_none() && !self.skipped && shows;
             if let Some((op, level)) = self.switched.of(running).filter(|_| known_under) {
-                self.again.push((number - 1, op, Some(level)));
+                match self.touched.0.filter(|_| running == Running::Spindle) {
+                    Some(act) => touched::tell(act, self.index, span, context),
+                    None => self.again.push((number - 1, op, Some(level))),
+                }
                 continue;
             }
             match again.filter(|_| known) {

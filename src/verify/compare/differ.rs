@@ -13,6 +13,9 @@ pub(super) const LEAST_WAIT: f64 = 0.000_501;
 /// What differs where only the feed does.
 pub const ANOTHER_FEED: &str = "the feed differs";
 
+/// Of events that are not of one kind, or of codes that are not the same.
+pub(super) const OTHERWISE: &str = "they do different things";
+
 /// The events' difference, if they have one; ends may lie `allowed` apart, arcs between their ends `paths`; `room`
 /// is what the target's text could have had more.
 pub fn differ(
@@ -138,7 +141,7 @@ pub fn differ(
                 others.get(word).is_some_and(|other| !differs(*value, *other))
             };
             if name != other {
-                Some("they do different things")
+                Some(OTHERWISE)
             } else {
                 let same = words.len() == others.len() && words.iter().all(near);
                 let counts = (surface != of_surface).then_some("S of a builder's code counts otherwise");
@@ -171,7 +174,7 @@ pub fn differ(
             .then_some("one ends the program, the other returns to its caller"),
         (Alarm(_), _) => Some("the source stops with an alarm, the target goes on"),
         (_, Alarm(_)) => Some("the target stops with an alarm, the source goes on"),
-        _ => (source != target).then_some("they do different things"),
+        _ => (source != target).then_some(OTHERWISE),
     }
 }
 

@@ -4,6 +4,7 @@ mod aligned;
 mod all;
 mod arcs;
 mod builders;
+mod deeds;
 mod differ;
 mod exit_state;
 mod found;

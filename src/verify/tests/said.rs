@@ -78,7 +78,10 @@ fn output_before_a_stop_may_be_left_out() {
     let found = judged([FADAL, &omits], source, target);
     assert_ne!(found.0, Outcome::Different, "{}", found.1);
     let (outcome, what) = judged([FADAL, CC100], source, target);
-    assert_eq!((outcome, what.as_str()), (Outcome::Different, "they do different things"));
+    assert_eq!(
+        (outcome, what.as_str()),
+        (Outcome::Different, "they do different things: the source puts out a text, the target stops")
+    );
 }
 
 /// A value in a question's text goes with the output that the profile leaves out, and the question is asked without it.
