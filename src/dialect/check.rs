@@ -4,6 +4,7 @@
 use super::answers::SETTING;
 use super::check_sources::sources;
 use super::overlay;
+use super::profile::Axis;
 use super::reader::{Placed, Reader, closest};
 use super::{
     Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Matter, Operator, Question,
@@ -365,14 +366,18 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
             reader.fault_at(place.clone(), format!("unknown machine '{machine}'"), "it is 'mill' or 'lathe'");
         }
         if let Some(when) = when {
-            let known = overlay::conditions(when).all(|(name, values)| {
+            let known = overlay::conditions(when).all(|(name, mut values)| {
+                if let Some(letter) = name.strip_prefix("axis.") {
+                    let is_axis = Axis::ALL.iter().any(|axis| format!("{axis:?}") == letter);
+                    return is_axis && values.all(|value| matches!(value, "no" | "open"));
+                }
                 let mut settings = tables.settings.iter().filter(|setting| setting.row.name == name);
                 settings.any(|setting| {
                     values.clone().all(|value| setting.row.values.iter().any(|known| known == value))
                 })
             });
             if !known {
-                let help = "write 'setting.NAME=VALUE' with a setting of this file and one of its values";
+                let help = "write 'setting.NAME=VALUE' with a setting of this file and one of its values, or 'axis.A=no' or 'axis.A=open'";
                 reader.fault_at(place.clone(), format!("no setting says '{when}'"), help);
             }
         }

@@ -371,7 +371,7 @@ impl Overlay {
     }
 }
 
-/// What a row's `when` asks for: `setting.NAME=VALUE`, or several of them with ` and ` between; the values that do, with `|`
+/// What a row's `when` asks for: `setting.NAME=VALUE`, `axis.A=no` where the profile lists the axes without A, or several of them with ` and ` between; the values that do, with `|`
 /// between.
 pub(super) fn conditions(when: &str) -> impl Iterator<Item = (&str, std::str::Split<'_, char>)> {
     when.split(" and ").map(|one| {

@@ -2,7 +2,7 @@
 
 use super::control::numbered;
 use super::overlay::{Overlay, conditions};
-use super::profile::Plain;
+use super::profile::{Axis, Plain};
 use super::reader::closest;
 use super::{BareLength, Dialect, Mark, OneTable, Origin, Question, Setting, TABLE_ROWS};
 use crate::canon::{Op, Role};
@@ -30,7 +30,8 @@ impl Overlay {
         }
     }
 
-    /// The values of all settings: the table's, then the profile's.
+    /// The values of all settings: the table's, then the profile's. `axis.A` is `no` where the profile lists the axes without A, and
+    /// else `open`.
     pub(super) fn settings(&mut self, dialect: &Dialect) -> BTreeMap<String, String> {
         let mut values: BTreeMap<String, String> = (dialect.settings.iter())
             .filter_map(|row| Some((row.name.clone(), row.default.clone()?)))
@@ -38,6 +39,10 @@ impl Overlay {
         if let Some(machine) = self.profile.machine {
             values.insert("machine".into(), machine.name().into());
             self.stated.insert("machine".into());
+        }
+        for axis in Axis::ALL {
+            let none = self.profile.axes.as_ref().is_some_and(|axes| !axes.contains(&axis));
+            values.insert(format!("axis.{axis:?}"), if none { "no" } else { "open" }.into());
         }
         let given: Vec<(String, String, String)> = [("parameters", "parameter."), ("settings", "setting.")]
             .into_iter()

@@ -2,7 +2,7 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Asks, Code, Diagnostic};
-use crate::dialect::{Axis, CodeMeaning, Machine, Question, Side};
+use crate::dialect::{Axis, CodeMeaning, Machine, Question};
 use crate::lower::macro_b::build::Lowering;
 use crate::lower::macro_b::codes::CodeId;
 use crate::lower::macro_b::parts::Words;
@@ -274,10 +274,7 @@ impl<'a> Lowering<'a> {
         // A parameter says whether corners and angles of a lathe have a comma.
         let corner = matches!(word.letter, 'A' | 'C' | 'R') && self.control.machine() == Machine::Lathe;
         if corner && word.comma && self.control.behaviour(Question::CornerLetters).is_some() {
-            let help = format!(
-                "with the comma or without is said by a setting: {}",
-                self.control.to_settle(Question::CornerLetters.fact(), Side::Source)
-            );
+            let help = self.comma_help(word.letter);
             return self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
         }
         let told = Diagnostic::new(Code::NotUnderstood, span, message);

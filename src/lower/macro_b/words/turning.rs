@@ -2,7 +2,7 @@
 
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Axis, Machine, Question, STEP_LETTERS};
+use crate::dialect::{Axis, Machine, Question, STEP_LETTERS, Side};
 use crate::ir::{BinOp, Expr, Nc, NcItem, SourceInfo};
 use crate::lower::macro_b::build::Lowering;
 use crate::syntax::{self, ExprKind};
@@ -210,12 +210,17 @@ impl Lowering<'_> {
             ),
             (
                 angle,
-                "A is the angle of a line on a lathe without an A axis: if the machine has one, list its axes in the profile",
+                "A is the angle of a line on a lathe without an A axis, and an axis on one that has it: list the axes of the machine in its profile",
             ),
         ] {
-            if found {
+            if found && !chamfer && self.control.profile().axes.is_some() {
+                let what = "A is no axis of this machine, as its profile lists its axes, and the angle of a line only in a block that cuts";
+                self.findings.not_understood(span, what);
+            } else if found {
                 let what = format!("{what}: axes = [\"X\", \"Z\", ...]");
-                let told = match self.corner_letters() {
+                // The angle is read with its comma and without on a lathe that has no such axis.
+                let setting = self.corner_letters().filter(|_| chamfer);
+                let told = match setting {
                     Some(name) => {
                         let number = name.trim_start_matches("parameter.");
                         let what = format!(
@@ -228,6 +233,18 @@ impl Lowering<'_> {
                 self.findings.add(told);
             }
         }
+    }
+
+    /// What to do where a comma stands before the letter of a corner or an angle, and the control is set to none.
+    pub fn comma_help(&self, letter: char) -> String {
+        let settled = self.control.to_settle(Question::CornerLetters.fact(), Side::Source);
+        let both = match letter {
+            'A' => {
+                ". Where programs have A with the comma and without, set it to the comma, and list the axes of the machine: without an A axis both are read"
+            }
+            _ => "",
+        };
+        format!("with the comma or without is said by a setting: {settled}{both}")
     }
 
     /// The setting that says by which letters corners and angles are written, where the control is not set to plain ones.
