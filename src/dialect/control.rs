@@ -34,6 +34,7 @@ pub struct Control {
     pub(super) machine_places: MachinePlaces,
     /// Where its own places lie on the machine that its programs go to.
     pub(super) places_there: MachinePlaces,
+    pub(super) rapid_will_do: bool,
     /// Rows of each code, with the words that each wants beside it.
     pub(super) codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>>,
     pub(super) targets: HashMap<Op, Vec<usize>>,
@@ -97,6 +98,7 @@ impl Control {
             standing_results: StandingResults::default(),
             machine_places: MachinePlaces::default(),
             places_there: MachinePlaces::default(),
+            rapid_will_do: false,
             codes,
             targets,
             words,

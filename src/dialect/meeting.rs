@@ -3,7 +3,7 @@
 use super::control::Control;
 use super::site::{SiteCode, Without};
 use super::spelling::{Beside, CodeHead};
-use super::{CodeMeaning, faults_as_text, site_rows, standing_results};
+use super::{CodeMeaning, Machine, Mark, Question, faults_as_text, site_rows, standing_results};
 use crate::canon::{Act, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
@@ -29,6 +29,7 @@ impl Control {
                 return Err(target.no_meeting(&format!("standing_results:{line}"), why, "target"));
             }
         }
+        source.take_feeds_as_rapid(&target);
         let named: Vec<(SiteCode, String)> =
             (source.profile.site.iter()).filter_map(|site| Some((site.clone(), there(site)?))).collect();
         if named.is_empty() {
@@ -62,11 +63,13 @@ impl Control {
         let again = |control: Self, dialect| {
             let (start, marks) = (control.start, (control.reserved, control.standing));
             let places = (control.machine_places, control.places_there);
+            let rapid = control.rapid_will_do;
             let results = control.standing_results;
             let mut made = Self::index(control.entry, dialect, control.profile, control.settings, marks);
             made.start = start;
             (made.machine_places, made.places_there) = places;
             made.standing_results = results;
+            made.rapid_will_do = rapid;
             made
         };
         Ok((again(source, ours), again(target, theirs)))
@@ -89,6 +92,24 @@ impl Control {
         let text = path.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
         let name = path.map_or_else(|| format!("the {side}'s profile"), |path| path.display().to_string());
         NoMeeting(faults_as_text(&name, &text, faults).trim_end().to_owned())
+    }
+
+    /// Where the target's profile says that rapid will do for moves in machine coordinates that feed here, they are rapid.
+    fn take_feeds_as_rapid(&mut self, target: &Self) {
+        let will_do = target.behaviour(Question::MachineMoveFeed).is_some_and(|row| row.value == "rapid");
+        let mut rows = self.dialect.behaviours.iter_mut();
+        let row = rows.find(|row| row.question == Question::MachineMoveRapid && row.value != "true");
+        let mills = self.profile.machine != Some(Machine::Lathe) && target.machine() == Machine::Mill;
+        if let Some(row) = row.filter(|_| will_do && mills) {
+            row.value = "true".into();
+            row.origin.mark = Mark::Confirmed;
+            self.rapid_will_do = true;
+        }
+    }
+
+    /// True where moves in machine coordinates that feed are taken as rapid, as the target's profile says that rapid will do.
+    pub fn rapid_will_do(&self) -> bool {
+        self.rapid_will_do
     }
 }
 

@@ -76,6 +76,7 @@ impl Question {
             self,
             Self::Corners
                 | Self::LengthOffZero
+                | Self::MachineMoveFeed
                 | Self::MachinePlaces
                 | Self::PowerOffValues
                 | Self::StandingResults
@@ -315,6 +316,7 @@ questions! {
     MachinePlaces "machine.places" OneOf(&["same", "home", "other", "unknown"]), "whether the places in machine coordinates that the programs move to are right on this machine too, or are those of another machine; home if zero is meant as the home of each machine, and other places are those of another", if "said";
     WorkPlaces "work.places" OneOf(&["same", "other", "unknown"]), "whether the work offsets that the programs write as numbers are right on this machine too, or are those of another machine", if "said";
     MachineMoveRapid "machine.move.rapid" YES, "a move in machine coordinates is a rapid, whatever interpolation is in force", if "said";
+    MachineMoveFeed "machine.move.feed" OneOf(&["feed", "rapid"]), "what becomes of a move in machine coordinates that feeds on the old machine, where this one makes every such move by rapid: a feed, or rapid will do", if "said";
     UnitsAgree "units.agree" YES, "a code for another unit than the control is set to is an alarm", if "said";
     MachineUnderIncremental "machine.under.incremental" OneOf(&["place", "increments", "ignored", "unknown"]), "what the words of a move in machine coordinates are under G91: places as under G90, increments, or nothing, since the code is ignored", if "said";
     MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";

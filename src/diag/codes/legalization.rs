@@ -88,6 +88,11 @@ Nothing needs to be done. Whoever wrote the line has looked at the way there: th
 "The block has a code that changes nothing where it stands: the code of a turning pass without a place (`G90` in the safe line of a lathe), before the first code that says how to move; the end of polar coordinates that no program of the library begins; a T that only makes a tool ready, for a machine whose T changes the tool. On the target it would not be sure to do nothing, or the target has no such code. It is told once a program.
 
 Nothing needs to be done."
+
+    "0420" RapidForFeed Note "a feed in machine coordinates is rapid on the new machine"
+"The program moves in machine coordinates under a code that feeds, or under one that is not known. The old machine may feed there, the new one makes every such move by rapid. The profile of the target's machine says that rapid will do (\"machine.move.feed\" = \"rapid\" under [behaviours]). It is told once a program. Both programs are compared as if the old machine moved so too.
+
+Nothing needs to be done. Whoever wrote the line answers for the way: nothing may stand in it that only a feed may touch."
         }
     };
 }

@@ -17,6 +17,7 @@ use crate::ir::analysis::behind::behind_or_entered;
 use crate::ir::analysis::modal_facts::replace_statements;
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, constant_part};
+use crate::legalize::ModalFacts;
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use std::collections::BTreeSet;
@@ -26,8 +27,10 @@ const FEEDS: &str = "a move in machine coordinates under a code that feeds: the 
 const MAY_FEED: &str = "a move in machine coordinates, and it is not known whether G0 is in force: the target makes every such move by rapid \
      traverse";
 
-const HELP: &str = "write G0 into its block if it may be rapid, else move in coordinates of the part; if the source's moves are rapid too, say so in its \
-     machine profile, as machine.move.rapid";
+const HELP: &str = "if rapid will do on the new machine, write \"machine.move.feed\" = \"rapid\" under [behaviours] in the target's profile, for all programs, \
+     or G0 into this block; else move in coordinates of the part. If the source's moves are rapid too, its profile says so, as machine.move.rapid";
+
+const RAPID: &str = "a move in machine coordinates that feeds on the source is rapid on the target, as the target's profile says that rapid will do";
 
 const UNIT: &str = "a feed move in machine coordinates becomes an increment from the place that the target reads, and no source says whether it \
      reads it in the unit of the program or of the machine";
@@ -68,12 +71,15 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     features.op(Op::MachineOnce)
         && [context.source, context.target].iter().all(|control| control.machine() == Machine::Mill)
         && context.target.is(rapid)
-        && !context.source.is(rapid)
+        && (context.source.rapid_will_do() || !context.source.is(rapid))
 }
 
 /// Makes them increments, or refuses them.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
+    if context.source.rapid_will_do() {
+        return tell_rapid(module, &facts, context);
+    }
     let (library, may_lack) = (Library::of(module), unsure(module, context, Op::MachineOnce));
     let lacks = if may_lack.is_empty() {
         BTreeSet::new()
@@ -108,6 +114,26 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         context.add_once(index, what, Diagnostic::new(code, span, what).with_help(HELP));
         out.push(stmt);
     });
+}
+
+/// Tells, once a program, that a move which feeds is rapid.
+fn tell_rapid(module: &Module, facts: &ModalFacts, context: &mut Context<'_>) {
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                state.step(stmt);
+                let moves = stmt.kind.nc().is_some_and(|nc| nc.has(Op::MachineOnce) && nc.names_axis());
+                if moves && state.op(Group::Motion) != Some(Op::Rapid) {
+                    context.add_once(
+                        index,
+                        RAPID,
+                        Diagnostic::new(Code::RapidForFeed, stmt.site.span, RAPID),
+                    );
+                }
+            }
+        }
+    }
 }
 
 /// True where a place reads the same in the unit in force and in that of the machine.

@@ -14,6 +14,7 @@ pub(in crate::legalize) mod machine_feeds;
 pub(in crate::legalize) mod machine_moves;
 pub(in crate::legalize) mod mains;
 pub(in crate::legalize) mod mixed_places;
+mod motion_left;
 pub(in crate::legalize) mod off_circle;
 pub(in crate::legalize) mod other_start;
 pub(in crate::legalize) mod polar;

@@ -3,9 +3,10 @@
 //! Law: such a move is a rapid on the source whatever interpolation is in force, and leaves that alone. So where another one is in
 //! force, or it is not known which, the target's block has the code of the rapid too, in the place of one that it has, and the
 //! interpolation that was in force is said again, unless the next block that moves says its own. Side condition: it is known, and is
-//! the straight feed. Where no source says how the source's control moves, the block stays, and the question is told: one answer
+//! the straight feed; or nothing can tell that the target has the rapid in force ([`motion_left`]). Where no source says how the source's control moves, the block stays, and the question is told: one answer
 //! for both is enough. Counter-example: the move between two blocks of a modal pass.
 
+use super::motion_left;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question};
@@ -32,6 +33,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let is_mill = context.target.machine() == Machine::Mill;
     let (mut changed, mut found) = (false, Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut open = Vec::new();
         for (at, block) in program.blocks.iter_mut().enumerate() {
             if !block.stmts.iter().any(|stmt| stmt.kind.has_op(Op::MachineOnce)) {
                 continue;
@@ -83,9 +85,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     }
                     // What the program may be found in is what it leaves.
                     _ if old.get(place + 1..).is_some_and(|rest| says_its_own(rest, ends)) => {}
-                    _ => found.push((index, span)),
+                    _ => open.push(((BlockId(at as u32), block.stmts.len() - 1), span)),
                 }
             }
+        }
+        let moves: Vec<motion_left::Move> = open.iter().map(|(place, _)| *place).collect();
+        if !moves.is_empty() {
+            let told = motion_left::told(program, &moves);
+            found.extend(
+                open.iter().filter(|(place, _)| told.contains(place)).map(|(_, span)| (index, *span)),
+            );
         }
     }
     for (index, span) in found {

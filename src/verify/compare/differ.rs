@@ -1,5 +1,6 @@
 //! What differs between two events.
 
+use super::deeds::apart as apart_in_kind;
 use super::kinds::returns;
 use super::paths::{apart, arcs_apart};
 use super::texts::say_the_same;
@@ -14,7 +15,7 @@ pub(super) const LEAST_WAIT: f64 = 0.000_501;
 pub const ANOTHER_FEED: &str = "the feed differs";
 
 /// Of events that are not of one kind, or of codes that are not the same.
-pub(super) const OTHERWISE: &str = "they do different things";
+const OTHERWISE: &str = "they do different things";
 
 /// The events' difference, if they have one; ends may lie `allowed` apart, arcs between their ends `paths`; `room`
 /// is what the target's text could have had more.
@@ -176,6 +177,11 @@ pub fn differ(
         (_, Alarm(_)) => Some("the target stops with an alarm, the source goes on"),
         _ => (source != target).then_some(OTHERWISE),
     }
+}
+
+/// The difference of two events in words.
+pub(super) fn told(what: &str, source: &EventKind, target: &EventKind) -> String {
+    if what == OTHERWISE { apart_in_kind(source, target) } else { what.to_owned() }
 }
 
 /// True where two contours are not the same lines and arcs.

@@ -2,8 +2,7 @@
 
 use super::arcs::joined;
 use super::builders;
-use super::deeds::apart as deeds;
-use super::differ::{ANOTHER_FEED, OTHERWISE, differ};
+use super::differ::{ANOTHER_FEED, differ, told};
 use super::exit_state::{left_differs, outside_differs};
 use super::found::{Comparison, Difference};
 use super::kinds::is_cut;
@@ -392,8 +391,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             }
             Some(what) => {
                 let excuse = has_no_feed(a).filter(|_| what == ANOTHER_FEED);
-                let what =
-                    excuse.is_none().then(|| if what == OTHERWISE { deeds(a, b) } else { what.to_owned() });
+                let what = excuse.is_none().then(|| told(what, a, b));
                 self.found.substituted.extend(excuse);
                 what
             }
