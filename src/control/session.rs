@@ -239,6 +239,14 @@ impl<'r, 'f> Session<'r, 'f> {
         answer
     }
 
+    /// The operator's next answer at a code of the builder that asks: it ends nothing that runs.
+    pub fn answer_at_code(&mut self) -> f64 {
+        let answer = self.scenario.answers.get(self.answered).copied().unwrap_or(0.0);
+        self.answered += 1;
+        self.trace.push(EventKind::Asked { answer });
+        answer
+    }
+
     /// A result of arithmetic, with the digits that the scenario leaves it.
     pub fn kept(&self, value: f64) -> f64 {
         self.digits.keep(value)

@@ -87,9 +87,14 @@ impl<'c> Runner<'c> {
             self.command = Command::default();
             return done.and_then(|()| self.contour(op, &command));
         }
+        let asks = command.words.iter().find_map(|(role, act)| self.asks_at(*role, *act));
         command.clear();
         self.command = command;
         done?;
+        if let Some(variable) = asks.filter(|_| self.session.has_answer()) {
+            let answer = self.session.answer_at_code();
+            self.memory.put(variable, answer);
+        }
         if self.session.machine.waits() && (call.is_some() || self.goes_elsewhere(meaning)) {
             return Err(self.lathe_stop(self.session.machine.waits_in_vain()));
         }
@@ -157,7 +162,12 @@ impl<'c> Runner<'c> {
         }
         command.without_dwell =
             self.cycle.is_some_and(|row| row.op != Op::Linear && !row.takes(Role::CycleDwell));
-        let last = call.map_or(usize::MAX, |call| if call.alias.is_some() { 0 } else { call.word });
+        let last = match call {
+            Some(call) if call.alias.is_none() => call.word,
+            Some(_) => 0,
+            None if self.is_alarm_alone(meaning) => 0,
+            None => usize::MAX,
+        };
         let flow = meaning.codes.iter().any(|code| self.row(code.row).is_some_and(|row| row.op.is_flow()));
         for (at, word) in words.words.iter().enumerate().take(last) {
             let Some(value) = values.get(at).copied().flatten() else { continue };

@@ -22,6 +22,7 @@ mod outside;
 mod parts;
 mod rules;
 mod run;
+mod stand_ins;
 mod store;
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 use crate::canon::{Act, Op, Sys};
 use crate::control::trace::EventKind;
 use crate::dialect::Without;
+use crate::text::variable_to_set;
 use crate::verify::sides::Side;
 use std::collections::BTreeSet;
 
@@ -43,11 +44,22 @@ pub fn stands_for(
 ) -> Option<(bool, String)> {
     let (without, text) = without_code(source, target, here)?;
     let stands = match without {
-        Without::Stop => matches!(there, EventKind::Message { .. } | EventKind::Stop),
+        // A stop whose text names a variable asks for it: its text is shown, and the answer comes next on both sides.
+        Without::Stop => match there {
+            EventKind::Output { .. } => asks(source, here),
+            there => matches!(there, EventKind::Message { .. } | EventKind::Stop),
+        },
         Without::Alarm => matches!(there, EventKind::Alarm(stop) if stop.program_number.is_some()),
         Without::Omit | Without::Same => false,
     };
     stands.then_some((without == Without::Alarm, text))
+}
+
+/// True where the text of the stop that stands for a code names a variable.
+fn asks(source: &Side<'_>, what: &EventKind) -> bool {
+    let EventKind::Act { name, .. } = what else { return false };
+    let site = source.control.site_of(Act::named(name));
+    site.is_some_and(|site| variable_to_set(&site.text, &source.control.prefixes()).is_some())
 }
 
 fn without_code(source: &Side<'_>, target: &Side<'_>, what: &EventKind) -> Option<(Without, String)> {

@@ -80,7 +80,7 @@ fn output_before_a_stop_may_be_left_out() {
     let (outcome, what) = judged([FADAL, CC100], source, target);
     assert_eq!(
         (outcome, what.as_str()),
-        (Outcome::Different, "they do different things: the source puts out a text, the target stops")
+        (Outcome::Different, "they do different things: the source stops with a message, the target stops")
     );
 }
 
