@@ -343,6 +343,7 @@ questions! {
     SetPositionEndsLocal "set.position.ends.local" YES, "a code that sets the position ends the local shift of its axes", if "op:wcs.local";
     SelectEndsSetPosition "select.ends.set.position" YES, "the choice of a work offset ends a position that was set", if "op:wcs.set.position";
     EndClearsLocal "end.clears.local" YES, "the end of the program clears the local shift", if "said";
+    ReferenceTogether "reference.together" YES, "a return of all axes to the reference position moves them at the same time", if "said";
     ReferenceAllAxes "reference.all.axes" YES, "a return to the reference position without axes moves all of them", if "op:reference.return";
     IntegerDivides "integer.divides" YES, "the quotient of two whole-number constants is cut to a whole number";
     SkipMidblock "skip.midblock" YES, "a block skip in mid-block skips the rest of the block";

@@ -128,8 +128,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                      G91 is in force: write one of them before it",
                 ),
             };
-            let told = Diagnostic::new(code, span, what).asked_once();
-            context.add(index, if untold { told.with_help(UNTOLD_HELP) } else { told });
+            // Where the source's axes return together, those of the target do the same.
+            if code == Code::NoEquivalent || !context.source.is(Question::ReferenceTogether) {
+                let told = Diagnostic::new(code, span, what).asked_once();
+                context.add(index, if untold { told.with_help(UNTOLD_HELP) } else { told });
+            }
             if left_out {
                 context.add_once(
                     index,
