@@ -1,5 +1,6 @@
 //! A library of one lowered module through the passes and the emitter, and what was written read back.
 
+use super::broken;
 use super::names::naming;
 use super::refused_calls::{self, Link};
 use super::{Lock, Options};
@@ -13,7 +14,7 @@ use crate::opt;
 use crate::syntax::parse_faults;
 use crate::text::Span;
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A library through the passes, by program of the source.
@@ -118,25 +119,23 @@ pub(super) fn make(
         made
     });
     let emitted: Vec<Result<_, Vec<Invalid>>> = emitted.collect();
-    let broken: Vec<String> =
-        emitted.iter().filter_map(|made| made.as_ref().err()).flatten().map(ToString::to_string).collect();
-    if broken.is_empty() {
-        for (origin, result) in origins.into_iter().zip(emitted.into_iter().flatten()) {
-            match result {
-                Ok(mut text) => {
-                    found[origin].append(&mut text.findings);
-                    parts[origin].push(text);
-                }
-                Err(diagnostics) => found[origin].extend(diagnostics),
+    let mut broken: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+    for (origin, result) in origins.into_iter().zip(emitted) {
+        match result {
+            Ok(Ok(mut text)) => {
+                found[origin].append(&mut text.findings);
+                parts[origin].push(text);
+            }
+            Ok(Err(diagnostics)) => found[origin].extend(diagnostics),
+            Err(faults) => {
+                broken.entry(origin).or_default().extend(faults.iter().map(ToString::to_string));
             }
         }
-        refused_calls::report(&links, &mut found);
-    } else {
-        // What one program of a library is broken by may have touched the others.
-        for all in &mut found {
-            all.push(Diagnostic::new(Code::Internal, Span::default(), broken.join("; ")));
-        }
     }
+    for at in broken::refuse(&broken, &links, &mut found) {
+        parts[at].clear();
+    }
+    refused_calls::report(&links, &mut found);
     Made { found, parts, lock, taken, links }
 }
 

@@ -5,6 +5,7 @@
 //! of it, kept in `macroglot.lock` so that the next run makes the same choices.
 
 mod accepted;
+mod broken;
 mod callees;
 mod callers_modes;
 mod chunks;
