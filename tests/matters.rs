@@ -151,7 +151,7 @@ fn what_a_manual_says_of_a_matter_is_not_doubted() {
 #[test]
 fn a_lathe_is_doubted_where_it_is_no_mill() {
     let lathe = "machine = \"lathe\"\naxes = [\"X\", \"Z\", \"C\", \"Y\"]\n";
-    let (feed, tool) = ("machine:feed.mode.at.start", "machine:lathe.tool.word.short");
+    let (feed, tool) = ("machine:feed.mode.at.start", "behaviour:turret.short");
     let cut = "G97S500M3\nG0X10.\nG1X5.F.2\nM30\n";
     let short = unsure(lathe, &format!("O1\nT01\n{cut}"));
     assert!(short.contains(tool) && !short.contains(feed), "{short:?}");

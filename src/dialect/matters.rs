@@ -92,7 +92,6 @@ pub const ALL: &[(&str, &str)] = &[
         "machine:lathe.tool.offset",
         "a tool offset of a lathe counts from the next absolute word on, and X of it is a diameter",
     ),
-    ("machine:lathe.tool.word.short", "a tool word of one or two digits is an offset alone"),
     (
         "machine:lathe.work.shift",
         "the shift of all zeros that G10 P0 writes counts at once, beside the external work offset",

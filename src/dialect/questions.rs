@@ -271,6 +271,8 @@ questions! {
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";
     XCounts "x.counts" OneOf(&["diameter", "radius"]), "what X of a lathe counts: diameters or radii", if "said";
     TurretNone "turret.offset.none" OneOf(&["all", "wear", "unknown"]), "what offset 00 of a lathe's T word takes away: all of the tool's offset, or its wear alone, so that the geometry stays", if "role:tool.turret";
+    TurretShort "turret.short" OneOf(&["offset", "both", "station", "unknown"]), "what a lathe's T word of one or two digits says: the offset alone, and the turret stays \
+        (T2 is T0002); the station and the offset of the same number (both: T0202); or the station, without an offset (T0200)", if "role:tool.turret";
     TurretGeometry "turret.geometry" OneOf(&["offset", "tool", "unknown"]), "of which number the geometry of a lathe's tool offset is: the number of the offset in the T word, as the wear is, or that of the station", if "role:tool.turret";
     HolePecks "hole.pecks" OneOf(&["plane", "clearance", "unknown"]), "how far a peck of a lathe's drilling cycle goes back: to its retract plane, or by a \
                                                                         clearance", if "op:hole.face or op:hole.face.peck";

@@ -1,6 +1,6 @@
 //! How many of the digits of a lathe's T word are the offset.
 
-use super::Control;
+use super::{Control, Question};
 
 /// The setting that says it.
 const DIGITS: &str = "setting.offset_digits";
@@ -19,6 +19,19 @@ pub struct TurretWord {
     stated: bool,
     /// True where the control has the setting.
     open: bool,
+    /// What a word says that has digits for the offset alone.
+    short: Short,
+}
+
+/// What a T word says that has no digits for a station.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Short {
+    /// The offset; the turret stays. So it is taken where nobody says it.
+    Offset,
+    /// The station and the offset of the same number.
+    Both,
+    /// The station, without an offset.
+    Station,
 }
 
 impl TurretWord {
@@ -42,21 +55,28 @@ impl TurretWord {
 
     /// True where the word is the same number in common terms, also where it is computed.
     pub fn is_plain(self) -> bool {
-        self.digits == 2
+        self.digits == 2 && self.short == Short::Offset
     }
 
     /// The word in common terms.
     pub fn read(self, value: f64) -> f64 {
         let size = 10f64.powi(self.digits as i32);
-        let (station, offset) = ((value / size).floor(), value % size);
+        let (station, offset) = match self.short {
+            Short::Both if value < size => (value, value),
+            Short::Station if value < size => (value, 0.0),
+            _ => ((value / size).floor(), value % size),
+        };
         if offset < 100.0 { station * 100.0 + offset } else { LONG + station * 1000.0 + offset }
     }
 
-    /// The digits for a word in common terms, unless its offset has more of them than the machine takes.
+    /// The digits for a word in common terms, unless its offset has more of them than the machine takes, or it has
+    /// no station and would turn the turret.
     pub fn written(self, common: f64) -> Option<String> {
         let (station, offset) = apart(common);
         let digits = self.digits as usize;
-        let fits = common.fract() == 0.0 && common >= 0.0 && offset < 10f64.powi(self.digits as i32);
+        let whole = common.fract() == 0.0 && common >= 0.0;
+        let turns = station == 0.0 && offset != 0.0 && self.short != Short::Offset;
+        let fits = whole && !turns && offset < 10f64.powi(self.digits as i32);
         fits.then(|| match station {
             0.0 => format!("{offset}"),
             station => format!("{station:02}{offset:0digits$}"),
@@ -78,7 +98,12 @@ impl Control {
         let digits =
             self.setting(DIGITS).and_then(|value| value.parse().ok()).filter(|d| (1..=3).contains(d));
         let stated = self.profile().settings.contains_key("offset_digits");
-        TurretWord { digits: digits.unwrap_or(2), stated, open: self.setting_row(DIGITS).is_some() }
+        let short = match self.behaviour(Question::TurretShort).map(|row| row.value.as_str()) {
+            Some("both") => Short::Both,
+            Some("station") => Short::Station,
+            _ => Short::Offset,
+        };
+        TurretWord { digits: digits.unwrap_or(2), stated, open: self.setting_row(DIGITS).is_some(), short }
     }
 }
 
@@ -93,9 +118,9 @@ mod tests {
     /// `T02102` of a machine with three digits for the offset is station 2 with offset 102, `T11011` station 11 with offset 11.
     #[test]
     fn the_last_digits_are_the_offset() {
-        let three = TurretWord { digits: 3, stated: true, open: true };
-        let two = TurretWord { digits: 2, stated: false, open: true };
-        let one = TurretWord { digits: 1, stated: true, open: true };
+        let three = TurretWord { digits: 3, stated: true, open: true, short: Short::Offset };
+        let two = TurretWord { digits: 2, stated: false, open: true, short: Short::Offset };
+        let one = TurretWord { digits: 1, stated: true, open: true, short: Short::Offset };
         for (written, station, offset) in [("11011", 11.0, 11.0), ("02102", 2.0, 102.0), ("01001", 1.0, 1.0)]
         {
             let common = three.read(written.parse().unwrap());
@@ -111,6 +136,15 @@ mod tests {
             two.fault(4, 101.0).is_none() && two.fault(3, 101.0).is_none() && two.fault(3, 0.0).is_none()
         );
         assert!(two.fault(5, 1001.0).is_some() && two.fault(3, 11.0).is_some());
+        let both = TurretWord { short: Short::Both, ..two };
+        assert_eq!(
+            (both.read(2.0), both.read(33.0), both.read(0.0), both.read(305.0)),
+            (202.0, 3333.0, 0.0, 305.0)
+        );
+        assert_eq!((both.written(202.0).as_deref(), both.written(2.0)), (Some("0202"), None));
+        let station = TurretWord { short: Short::Station, ..two };
+        assert_eq!((station.read(2.0), station.written(2.0)), (200.0, None));
+        assert!(two.is_plain() && !both.is_plain());
         assert!(three.fault(5, 1001.0).is_none() && three.fault(6, 101_001.0).is_some());
     }
 }

@@ -230,10 +230,12 @@ impl<'p> Emitter<'p> {
             Role::Turret => match self.control.turret_word().written(value) {
                 Some(digits) => self.out.push_str(&digits),
                 None => {
-                    let offset = crate::dialect::turret_parts(value).1;
-                    self.out.unmapped(format_args!(
-                        "the offset {offset} in a T word, whose digits do not hold it"
-                    ));
+                    let (station, offset) = crate::dialect::turret_parts(value);
+                    let why = match station {
+                        0.0 => "alone in a T word, which would turn the turret",
+                        _ => "in a T word, whose digits do not hold it",
+                    };
+                    self.out.unmapped(format_args!("the offset {offset} {why}"));
                 }
             },
             // Two digits for each of what stands in one number, as people write it.

@@ -85,6 +85,7 @@ fn ask(module: &Module, context: &mut Context<'_>) {
     if context.source.dialect().codes.iter().any(|row| named(&row)) {
         return;
     }
+    orients(module, context);
     let Some(code) = context.target.code_of(on).map(|row| row.code.clone()) else { return };
     let known = context.source.behaviour(Question::CAxisEngages).is_some_and(|row| row.value == "code");
     for (index, program) in module.programs.iter().enumerate() {
@@ -104,6 +105,41 @@ fn ask(module: &Module, context: &mut Context<'_>) {
         );
         let told = Diagnostic::new(Code::Conditional, span, what.as_str()).with_help(help);
         context.add_once(index, &what, told.asked_once());
+    }
+}
+
+/// Asks whether the code of an oriented stop is the one that engages C, where C moves after it and the source's profile does not say what it does.
+fn orients(module: &Module, context: &mut Context<'_>) {
+    let row = context.source.code_for(Op::SpindleOrient, &Default::default());
+    let Some(head) = row.and_then(|row| row.head()) else { return };
+    if context.source.site_code(head.letter, head.number()).is_some() {
+        return;
+    }
+    for (index, program) in module.programs.iter().enumerate() {
+        let mut stands = None;
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            let Some(nc) = stmt.kind.nc() else { continue };
+            if starts(nc) {
+                stands = None;
+            } else if nc.has(Op::SpindleOrient) {
+                stands = Some(stmt.site.span);
+            }
+            let Some(span) = stands.filter(|_| moves(nc)) else { continue };
+            let code = format!("{}{}", head.letter, head.number());
+            let what = format!(
+                "C moves after {code}, and no code of the source is named that engages C: on many lathes {code} does it, and here it is taken as \
+                 an oriented stop of the spindle"
+            );
+            let help = format!(
+                "write what it is into the source's profile: {code} = {{ name = \"{}\" }}, or {code} = {{ op = \"{}\" }}",
+                Act::C_AXIS[0],
+                Op::SpindleOrient
+            );
+            let asks = Asks::Code { code: code.into(), op: None };
+            let told = Diagnostic::new(Code::Conditional, span, what.as_str()).with_help(help);
+            context.add_once(index, &what, told.asking_for(asks));
+            break;
+        }
     }
 }
 

@@ -41,6 +41,7 @@ pub mod roughing;
 pub mod run_outs;
 mod setting_values;
 pub mod settings;
+pub mod short_tools;
 pub mod steps;
 pub mod straight;
 pub mod tap_feeds;

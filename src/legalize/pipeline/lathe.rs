@@ -8,7 +8,7 @@ use crate::legalize::lathe::{
     bare_passes, bare_starts, contour_ends, contour_left, contour_nose, contour_types, contours, corners,
     counts, cycle_words, faces, geometry_rows, held_holes, hole_codes, hole_returns, holes, inch_leads,
     interpolations, lasting_pecks, lone_passes, modes, none_offsets, pass_run_outs, roughing, run_outs,
-    steps, tap_feeds, thread_ways, written_corners, x_counts, zeros,
+    short_tools, steps, tap_feeds, thread_ways, written_corners, x_counts, zeros,
 };
 use crate::legalize::moves::rapid_in_force;
 
@@ -152,6 +152,8 @@ pub(super) const LATHE: &[Pass] = &[
         none_offsets::run,
     )
     .when(none_offsets::concerns),
+    Pass::reports("short-tools", "asks what T words of one or two digits say", short_tools::run)
+        .when(short_tools::concerns),
     Pass::reports(
         "geometry-rows",
         "reports T words of two numbers, if the two lathes take the geometry by another one",

@@ -33,6 +33,8 @@ pub struct Turning {
     pub nose_alarms: bool,
     /// True where offset 00 takes the wear alone away (T4).
     pub keeps_geometry: bool,
+    /// What a T word with digits for the offset alone says: the table of T words reads it.
+    pub short_word: Fact<()>,
     /// True where the geometry has the number of the station, and the wear that of the offset (T3).
     pub geometry_by_station: bool,
     /// True where X is written as a radius (C1).
@@ -135,6 +137,7 @@ impl Turning {
             c_by_return: answer(Question::CAxisEngages) == Some("return"),
             nose_alarms: answer(Question::ContourNose) == Some("alarm"),
             keeps_geometry: answer(Question::TurretNone) == Some("wear"),
+            short_word: fact(control, Question::TurretShort, |value| (value != "unknown").then_some(()), ()),
             geometry_by_station: answer(Question::TurretGeometry) == Some("tool"),
             radii: answer(Question::XCounts) == Some("radius"),
             letters: answer(Question::CornerLetters) == Some("letters"),

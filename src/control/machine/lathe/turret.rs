@@ -16,8 +16,8 @@ pub fn index(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let offset = offset as u32;
     machine.spoken.doubt();
     if (1..100).contains(&word) {
-        // By its digits it is an offset alone; whether a machine takes it for a station no source says.
-        trace.doubt("machine:lathe.tool.word.short");
+        // By its digits it is an offset alone; a machine may take it for a station.
+        machine.rules.turning.short_word.ask(trace);
     }
     machine.tool_ready = station;
     if station != 0.0 && station != machine.tool {

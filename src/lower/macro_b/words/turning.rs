@@ -160,7 +160,9 @@ impl Lowering<'_> {
         let fault = match &value.kind {
             ExprKind::Number(number) => turret.fault(number.digits, number.value),
             _ if turret.is_plain() => return lowered,
-            _ => Some("a computed T word: on this machine its last digits are not the two of other machines"),
+            _ => Some(
+                "a computed T word: on this machine its digits do not say what those of other machines say",
+            ),
         };
         if let Some(what) = fault {
             let found = Diagnostic::new(Code::NotUnderstood, value.span, what);
