@@ -11,7 +11,7 @@
 
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Question, turret_parts};
 use crate::ir::{self, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::codes::pauses::{AFTER_CALL, pause_of};
 use crate::legalize::features::Features;
@@ -152,6 +152,10 @@ fn split(
         context.rests_on_target(index, stmt.site.span, fact);
     }
     let changed = !early.is_empty() || !late.is_empty();
+    if before_turret(&early, &stmt) {
+        let finding = Diagnostic::new(Code::Conditional, stmt.site.span, BEFORE_TURRET);
+        context.add_once(index, BEFORE_TURRET, finding.with_help(TURRET_HELP));
+    }
     if !late.is_empty() && before.may_call() {
         context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
     }
@@ -170,6 +174,19 @@ fn split(
     out.extend(behind.into_iter().map(|(items, site)| Stmt { kind: StmtKind::Nc(Nc { items }), site }));
     changed
 }
+
+/// True where a builder's code goes before a block that turns the turret.
+fn before_turret(early: &[Vec<NcItem>], stmt: &Stmt) -> bool {
+    let word = stmt.kind.nc().and_then(|nc| nc.word(Role::Turret));
+    let turns = word.is_some_and(|word| word.constant().is_none_or(|word| turret_parts(word).0 != 0.0));
+    let builders = |item: &NcItem| kind(item, false) == Some(Auxiliary::Other);
+    turns && early.iter().flatten().any(builders)
+}
+
+const BEFORE_TURRET: &str = "a code of the builder stands beside a move and a T word that turns the turret, and goes before them: if it starts a live tool, \
+                             the one of the old station turns while the turret turns";
+const TURRET_HELP: &str =
+    "write T into a block of its own before this one; then the turret has turned when the code acts";
 
 /// What a block moves.
 #[derive(Clone, Copy, PartialEq, Eq)]
