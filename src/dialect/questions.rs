@@ -81,6 +81,7 @@ impl Question {
                 | Self::PowerOffValues
                 | Self::StandingResults
                 | Self::TapDwell
+                | Self::PeckDwell
                 | Self::WorkPlaces
                 | Self::TapPeck
                 | Self::CycleSettings
@@ -266,6 +267,7 @@ questions! {
     Corners "corners" OneOf(&["words", "moves"]), "how corners and angles of lines are written in programs for this lathe: by their words, or as moves", if "said";
     PowerOffValues "power.off.values" OneOf(&["used", "unused", "unknown"]), "whether programs for this machine use what variables held when it was last switched off, or how vacant they are after power-on", if "said";
     TapDwell "tap.dwell" OneOf(&["none", "waits"]), "the wait at the bottom that programs tell a tap of this mill: it waits, or the threads need none", if "said";
+    PeckDwell "peck.dwell" OneOf(&["none", "waits"]), "the wait at the bottom that programs tell a peck drill of this mill: it waits, or the holes need none", if "said";
     TapPeck "tap.peck" OneOf(&["one.go"]), "how a rigid tap that programs tell pecks goes to its depth on the target: in one go", if "said";
     CycleSettings "cycle.settings" OneOf(&["machine"]), "where the cycles of this lathe take what programs cannot tell them: from settings of the machine, which are right for all of them", if "said";
     LineAngle "line.angle" OneOf(&["from.z", "unknown"]), "from where the angle of a line of a lathe counts: from Z, counter-clockwise", if "role:line.angle";

@@ -163,7 +163,9 @@ impl Driver<'_> {
                 step = (step - cycle.less.abs()).max(cycle.least.abs());
             }
         }
-        self.dwell(cycle.dwell);
+        if self.machine.rules.taps.peck_wait {
+            self.dwell(cycle.dwell);
+        }
         self.rapid(r);
     }
 

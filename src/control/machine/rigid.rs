@@ -15,6 +15,8 @@ use std::collections::BTreeMap;
 pub struct Taps {
     /// False where the profile says that the wait of a tap is none.
     pub wait: bool,
+    /// The same of peck drills.
+    pub peck_wait: bool,
     /// True if every tap is rigid.
     pub rigid: bool,
     /// True if a code makes taps rigid, and nobody says whether others are too.
@@ -28,8 +30,10 @@ pub struct Taps {
 impl Taps {
     pub fn of(control: &Control) -> Self {
         let yes = |question| control.behaviour(question).is_some_and(|row| row.value == "true");
+        let waits = |question| control.behaviour(question).is_none_or(|row| row.value != "none");
         Self {
-            wait: control.behaviour(Question::TapDwell).is_none_or(|row| row.value != "none"),
+            wait: waits(Question::TapDwell),
+            peck_wait: waits(Question::PeckDwell),
             rigid: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "always"),
             open: control.behaviour(Question::TapRigid).is_some_and(|row| row.value == "unknown")
                 && control.code_for(Op::RigidTaps, &BTreeMap::new()).is_some(),

@@ -8,7 +8,7 @@
 //! the letter of that dwell means something else beside the next code. Counter-example: `G82 P500 .. G83`, where the
 //! source's G83 takes no P and the target's waits half a second.
 
-use super::{bore_waits, fine_shifts, peck_clear, tap_waits};
+use super::{bore_waits, fine_shifts, needless_waits, peck_clear};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
@@ -50,7 +50,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let span = stmt.site.span;
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 let Some(op) = state.op(Group::Cycle).filter(|op| op.is_cycle()) else { continue };
-                tap_waits::fit(nc, op, context);
+                needless_waits::fit(nc, op, context);
                 fine_shifts::fit((nc, span), (before, op), index, context);
                 let here = if before == Some(Op::CycleOff) { Lasting::default() } else { here };
                 let begins = begins(nc);
@@ -78,7 +78,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                              target's code takes no dwell"
                         );
                         let told = Diagnostic::new(Code::NoEquivalent, span, what);
-                        context.add(index, if tap_waits::is_tap(op) { tap_waits::told(told) } else { told });
+                        let told = needless_waits::told(told, op, context);
+                        context.add(index, told);
                         continue;
                     }
                     (true, false, Dwell::Many) => {
@@ -135,8 +136,9 @@ fn refuse(
     let told = Diagnostic::new(Code::NoEquivalent, span, word_too_much(op, role, context));
     let needed = if role == Role::PeckClear { peck_clear::fit(nc, state, context) } else { None };
     match needed {
-        None if role == Role::CycleDwell && tap_waits::is_tap(op) => {
-            context.add(index, tap_waits::told(told));
+        None if role == Role::CycleDwell && needless_waits::question(op).is_some() => {
+            let told = needless_waits::told(told, op, context);
+            context.add(index, told);
         }
         None => context.add(index, told.with_help(TOO_MUCH_HELP)),
         Some(needed) if nc.word(role).is_some() => {
@@ -183,7 +185,7 @@ impl Lasting {
                 let [own, others] = waits(op, context);
                 if let Some(dwell) = nc.word(Role::CycleDwell) {
                     // What the target's code does not take, it does not keep.
-                    let away = !others || tap_waits::left_out(op, context);
+                    let away = !others || needless_waits::left_out(op, context);
                     *self = Self { dwell: Dwell::Is(Some(dwell.clone())), away };
                 } else if begins(nc) && others && (own || before != Some(Op::CycleOff)) {
                     self.away = !own;
@@ -268,7 +270,7 @@ fn parts(module: &Module, context: &Context<'_>) -> bool {
         }
         nc.ops().filter(|op| op.is_cycle()).any(|op| match waits(op, context) {
             [own, others] if begins(nc) => !own && others,
-            [_, others] => !others || tap_waits::left_out(op, context),
+            [_, others] => !others || needless_waits::left_out(op, context),
         })
     })
 }
@@ -283,10 +285,10 @@ pub(super) fn sides(op: Op, context: &Context<'_>) -> [bool; 2] {
     [context.source, context.target].map(|control| takes(control, op, Role::CycleDwell))
 }
 
-/// As [`sides`]; false of a source whose taps need no wait.
+/// As [`sides`]; false of a source where this cycle needs no wait.
 fn waits(op: Op, context: &Context<'_>) -> [bool; 2] {
     let [own, others] = sides(op, context);
-    [own && !tap_waits::left_out(op, context), others]
+    [own && !needless_waits::left_out(op, context), others]
 }
 
 /// True where the letter of a dwell is that of another word beside the control's code for a cycle.
@@ -302,7 +304,7 @@ fn letter_is_another(op: Op, control: &Control) -> bool {
 }
 
 /// True where the code that the control has for a cycle takes a word.
-fn takes(control: &Control, op: Op, role: Role) -> bool {
+pub(super) fn takes(control: &Control, op: Op, role: Role) -> bool {
     control.code_for(op, &BTreeMap::new()).is_some_and(|row| row.takes(role))
 }
 

@@ -1,13 +1,16 @@
-//! Pecks that become less, as moves, where the target tells all pecks of a hole one depth.
+//! Pecks that become less, as moves, where the target tells all pecks of a hole one depth; and pecks with a wait at the bottom, where
+//! its cycle takes none.
 //!
 //! Law: a cycle with such pecks becomes the moves that its holes are (see [`super::hole_moves`]), from the block that names it to the one
 //! that ends it. If a call comes between, the holes of its program do, and of those that it calls or that call it: so no cycle begins on
 //! one control and goes on on the other. Side conditions: those of that pass, and all
-//! numbers of these cycles are known. Counter-example: `G83 I#1 J1. K2.`, which stays and is refused later.
+//! numbers of these cycles are known. Counter-examples: `G83 I#1 J1. K2.` and `G83 Q#1 P500`, which stay and are refused later.
 
+use super::cycle_words::takes;
 use super::even_pecks::{by_depth, even, pecks};
-use super::hole_moves;
-use crate::canon::Role;
+use super::{hole_moves, needless_waits};
+use crate::canon::{Op, Role};
+use crate::dialect::Control;
 use crate::ir::{Callee, Module, Nc, Program};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, calls_of};
@@ -15,25 +18,21 @@ use std::collections::BTreeSet;
 
 /// True if such words stand in the library.
 pub fn concerns(features: &Features) -> bool {
-    features.role(Role::PeckFirst)
+    features.role(Role::PeckFirst) || features.role(Role::CycleDwell) && features.any_op(pecks)
 }
 
 /// Writes them as moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let target = context.target;
-    let uneven = |nc: &Nc| {
-        let cycle = nc.ops().find(|op| pecks(*op)).filter(|op| by_depth(target, *op));
-        cycle.is_some() && nc.word(Role::PeckFirst).is_some() && even(nc).is_none()
-    };
-    let has_uneven = |program: &Program| {
-        program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc()).any(uneven)
-    };
-    if !module.programs.iter().any(has_uneven) {
+    let (source, target) = (context.source, context.target);
+    let is_clear = source.peck_clearance().is_some();
+    let is_such = |nc: &Nc| uneven(nc, target) || is_clear && waits(nc, (source, target)) && is_known(nc);
+    let concerned = |program: &Program| cycles(program).any(is_such);
+    if !module.programs.iter().any(concerned) {
         return;
     }
-    hole_moves::write_cycles(module, context, &uneven);
+    hole_moves::write_cycles(module, context, &is_such);
     let mut all: BTreeSet<usize> =
-        (0..module.programs.len()).filter(|index| has_uneven(&module.programs[*index])).collect();
+        (0..module.programs.len()).filter(|index| concerned(&module.programs[*index])).collect();
     if all.is_empty() {
         return;
     }
@@ -54,6 +53,31 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if all.iter().all(|index| has_moves_only(&module.programs[*index])) {
         hole_moves::write_programs(module, context, &all);
     }
+}
+
+fn cycles(program: &Program) -> impl Iterator<Item = &Nc> {
+    let stmts = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+    stmts.filter(|nc| nc.ops().any(Op::is_cycle))
+}
+
+/// True for a block whose pecks become less, which the target's code has no words for.
+fn uneven(nc: &Nc, target: &Control) -> bool {
+    let cycle = nc.ops().find(|op| pecks(*op)).filter(|op| by_depth(target, *op));
+    cycle.is_some() && nc.word(Role::PeckFirst).is_some() && even(nc).is_none()
+}
+
+/// True for a block that tells a peck drill a wait, for which the target's code has no word.
+fn waits(nc: &Nc, (source, target): (&Control, &Control)) -> bool {
+    let Some(op) = nc.ops().find(|op| pecks(*op)) else { return false };
+    let [own, others] = [source, target].map(|control| takes(control, op, Role::CycleDwell));
+    let told = nc.word(Role::CycleDwell).is_some_and(|wait| wait.constant() != Some(0.0));
+    told && own && !others && !needless_waits::is_none(op, source)
+}
+
+/// True where all numbers of a cycle's block are known.
+fn is_known(nc: &Nc) -> bool {
+    let roles = [Role::Z, Role::CycleR, Role::CycleQ, Role::CycleDwell];
+    roles.iter().all(|role| nc.word(*role).is_none_or(|word| word.constant().is_some()))
 }
 
 /// True for a program all of whose cycles can be written as moves.

@@ -36,7 +36,7 @@ pub(super) const CYCLES: &[Pass] = &[
         .changes_flow(),
     Pass::rewrites(
         "uneven-pecks",
-        "pecks that become less are moves, where all have one depth",
+        "pecks that become less, or that wait, are moves where the target has none such",
         uneven_pecks::run,
     )
     .when(|c, context| is_mill(context) && uneven_pecks::concerns(c) && !hole_moves::replaces(context.target))

@@ -30,6 +30,7 @@ use crate::ir::{
     StmtKind, TermKind, Var,
 };
 use crate::legalize::Context;
+use crate::legalize::cycles::needless_waits;
 use crate::legalize::rewrite::{Part as Piece, rebuild};
 use crate::text::Span;
 use chosen::Chosen;
@@ -226,7 +227,9 @@ impl Writer<'_, '_> {
             None => stands,
         };
         let dwells = drill.op.is_some_and(|op| {
-            self.context.source.code_for(op, &BTreeMap::new()).is_some_and(|row| row.takes(Role::CycleDwell))
+            let row = self.context.source.code_for(op, &BTreeMap::new());
+            !needless_waits::is_none(op, self.context.source)
+                && row.is_some_and(|row| row.takes(Role::CycleDwell))
         });
         let clear = self.clearance(modal);
         let back = self.rules.back(modal);
