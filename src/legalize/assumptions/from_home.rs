@@ -4,15 +4,15 @@
 //! has its home and how far it goes, as a move in machine coordinates does. Over-approximates: an axis counts as placed from home
 //! where some way went there and named no absolute place of it since, calls of the library included. What a program outside the
 //! library, a computed call or a modal one leaves is not known, and counts as another place. Counter-example: a place that G92
-//! sets at home, from which absolute words then count.
+//! sets at home, from which absolute words then count. C is left out: an angle from its zero is no place of a machine.
 
 use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, States, solve};
 use crate::ir::analysis::{Cfg, ModalFacts};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
-use crate::legalize::Modal;
+use crate::legalize::{Modal, calls_of, reachable};
 use crate::syntax::ProgramName;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The axes that may be placed from a reference position, by their numbers, as bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,7 +33,10 @@ impl FromHome {
         let moves = nc.moves() && !goes_home(nc) && !nc.has(Op::MachineOnce);
         nc.items.iter().filter_map(move |item| match item {
             NcItem::Word(role, value)
-                if moves && (role.is_step() || steps) && self.0 & bit(*role).unwrap_or(0) != 0 =>
+                if moves
+                    && role.axis_number() != Role::C.axis_number()
+                    && (role.is_step() || steps)
+                    && self.0 & bit(*role).unwrap_or(0) != 0 =>
             {
                 Some((*role, value))
             }
@@ -104,30 +107,41 @@ impl Homes {
         let modes = stmts.any(|stmt| stmt.kind.has_op(Op::Incremental));
         let mut found = Self { states: vec![States::default(); graphs.len()], modes };
         let mut ends = vec![Ends::default(); graphs.len()];
+        let mut parts: BTreeMap<(usize, BlockId), Ends> = BTreeMap::new();
         let mut changed = true;
         while std::mem::take(&mut changed) {
             for (index, program) in programs.clone() {
-                let rules = Rules { index, facts, names: &names, ends: &ends, modes };
+                let rules = Rules { index, facts, names: &names, ends: &ends, parts: &parts, modes };
                 let states = solve(&rules, program, &graphs[index]);
                 let (mut calls, mut own) = (Vec::new(), ends[index]);
+                let mut returns: BTreeMap<BlockId, Ends> = BTreeMap::new();
                 for (id, block) in program.ids().zip(&program.blocks) {
                     let Some(mut state) = states.at(id).copied() else { continue };
                     rules.stmts(id, block, &mut state);
                     match &block.term.kind {
                         TermKind::Call { call, .. } => {
-                            own.sets |= rules.callee(call).map_or(0, |callee| ends[callee].sets);
+                            let sets = rules.ends(call).map_or(0, |ends| ends.sets);
+                            own.sets |= sets;
+                            returns.entry(id).or_default().sets |= sets;
                             calls.extend(rules.callee(call).map(|callee| (callee, state)));
                         }
-                        TermKind::Return { .. } => own.exit.0 |= state.0,
+                        TermKind::Return { .. } => {
+                            own.exit.0 |= state.0;
+                            returns.entry(id).or_default().exit = state;
+                        }
                         _ => {}
                     }
                 }
-                own.sets |= homes_of(program);
+                own.sets |= program.blocks.iter().fold(0, |all, block| all | homes_of(block));
+                let found_parts = parts_of(program, &returns);
                 changed |= std::mem::replace(&mut ends[index], own) != own;
                 for (callee, state) in calls {
                     changed |= ends[callee].entry.join(&state);
                 }
                 found.states[index] = states;
+                for (entry, part) in found_parts {
+                    changed |= parts.insert((index, entry), part) != Some(part);
+                }
             }
         }
         found
@@ -139,9 +153,28 @@ impl Homes {
     }
 }
 
-/// The axes that a program may send home itself.
-fn homes_of(program: &Program) -> u16 {
-    let blocks = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+/// What the called parts of a program return with, and the axes that they may send home; `ends` is that of blocks that call or return.
+fn parts_of(program: &Program, ends: &BTreeMap<BlockId, Ends>) -> Vec<(BlockId, Ends)> {
+    let entries = program.blocks.iter().flat_map(calls_of).filter_map(|call| match call.callee {
+        Callee::Block(entry) => Some(entry),
+        _ => None,
+    });
+    let part = |entry: BlockId| {
+        let mut part = Ends::default();
+        for id in reachable(program, entry) {
+            part.sets |= program.block(id).map_or(0, homes_of);
+            if let Some(end) = ends.get(&id) {
+                part.exit.0 |= end.exit.0;
+                part.sets |= end.sets;
+            }
+        }
+        (entry, part)
+    };
+    entries.collect::<BTreeSet<_>>().into_iter().map(part).collect()
+}
+
+/// The axes that a block may send home itself.
+fn homes_of(block: &Block) -> u16 {
     let named = |nc: &Nc| {
         let all = nc.items.iter().fold(0, |all, item| match item {
             NcItem::Word(role, _) => all | bit(*role).unwrap_or(0),
@@ -149,6 +182,7 @@ fn homes_of(program: &Program) -> u16 {
         });
         if all == 0 { u16::MAX } else { all }
     };
+    let blocks = block.stmts.iter().filter_map(|stmt| stmt.kind.nc());
     blocks.filter(|nc| goes_home(nc) || nc.has(Op::MachineOnce)).fold(0, |all, nc| all | named(nc))
 }
 
@@ -165,6 +199,8 @@ struct Rules<'r> {
     facts: &'r ModalFacts,
     names: &'r HashMap<&'r ProgramName, usize>,
     ends: &'r [Ends],
+    /// Of parts of programs that are called, by their first blocks.
+    parts: &'r BTreeMap<(usize, BlockId), Ends>,
     modes: bool,
 }
 
@@ -175,6 +211,14 @@ impl Rules<'_> {
             Callee::Program(name) => self.names.get(name).copied(),
             Callee::Block(_) => Some(self.index),
             _ => None,
+        }
+    }
+
+    /// What is known of what a call runs; none of what is not in the library.
+    fn ends(&self, call: &Call) -> Option<Ends> {
+        match &call.callee {
+            Callee::Block(entry) => Some(self.parts.get(&(self.index, *entry)).copied().unwrap_or_default()),
+            _ => self.callee(call).map(|callee| self.ends[callee]),
         }
     }
 
@@ -201,8 +245,8 @@ impl Analysis for Rules<'_> {
         self.stmts(id, block, state);
         if let TermKind::Call { call, .. } = &block.term.kind {
             // What some other caller had in force does not come back here.
-            let kept = |callee: usize| self.ends[callee].exit.0 & (state.0 | self.ends[callee].sets);
-            *state = FromHome(self.callee(call).map_or(0, kept));
+            let kept = |ends: Ends| ends.exit.0 & (state.0 | ends.sets);
+            *state = FromHome(self.ends(call).map_or(0, kept));
         }
     }
 }
