@@ -3,6 +3,7 @@
 use super::filled::TELLS;
 use crate::canon::{Op, Role};
 use crate::dialect::{Control, Question};
+use crate::ir::analysis::tool_word;
 use crate::ir::{Module, Nc, NcItem, StmtKind};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -31,9 +32,11 @@ pub(super) fn named(target: &Control, module: &Module) -> Vec<(String, usize)> {
     all
 }
 
-/// The place of a move in machine coordinates, where all its words are numbers and one is not 0.
+/// The place of a move in machine coordinates, or without a tool offset, where all its words are numbers and one is not 0.
 fn place(nc: &Nc) -> Option<Vec<(Role, f64)>> {
-    if !nc.has(Op::MachineOnce) && !nc.has(Op::ShiftCancel) {
+    let home = nc.has(Op::ReferenceReturn) || nc.has(Op::Reference2);
+    let away = !home && tool_word::takes_offset(nc) == Some(true);
+    if !nc.has(Op::MachineOnce) && !nc.has(Op::ShiftCancel) && !away {
         return None;
     }
     let mut place = Vec::new();

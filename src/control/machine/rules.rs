@@ -4,10 +4,11 @@ mod answers;
 
 use super::frame::UnderIncremental;
 use super::lathe::Turning;
+use super::places::Places;
 use super::rigid::Taps;
 use crate::canon::{Act, Auxiliary, Op, Pause, Role, Running, Sys};
 use crate::control::trace::Trace;
-use crate::dialect::{Control, Machine, MachinePlaces, Question};
+use crate::dialect::{Control, Machine, Question};
 pub use answers::{BareChange, LengthAfter, NoCentre, RadiusTable};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -87,7 +88,7 @@ pub struct Rules {
     /// True if the code that ends coolant leaves the one through the spindle on, as the profile says.
     pub through_stays: bool,
     /// Where places in machine coordinates lie on the machine that the programs go to.
-    pub places: Arc<MachinePlaces>,
+    pub places: Arc<Places>,
     pub zero_repeats_stores: Fact<bool>,
     pub zero_repeats_moves: Fact<bool>,
     pub repeats_move: Fact<bool>,
@@ -252,7 +253,7 @@ impl Rules {
             zero_repeats_moves: yes(control, Question::CycleL0Moves, false),
             speed_kept: fact(control, Question::SpeedKept, word("mode", "turns"), true),
             through_stays: answers::are(control, Question::CoolantOffThrough, "false"),
-            places: Arc::new(control.places_there().clone()),
+            places: Arc::new(Places::of(control)),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
             finish_allowance: fact(

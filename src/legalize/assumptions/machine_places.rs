@@ -9,7 +9,7 @@
 //! Counter-example: `G53 X-300.`, which is past the end of a smaller machine.
 
 use super::from_home::{FromHome, Homes};
-use super::moved_places::At;
+use super::moved_places::{At, without_offset};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
@@ -17,7 +17,7 @@ use crate::ir::{Cond, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind, TermKind,
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// What is asked of moves to such places, and of work offsets that are written as numbers.
 const MOVES: Question = Question::MachinePlaces;
@@ -27,7 +27,7 @@ const OFFSETS: Question = Question::WorkPlaces;
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let ops = [Op::MachineOnce, Op::ShiftCancel, Op::WriteWork, Op::ReferenceReturn, Op::Reference2];
     let names = ops.iter().any(|op| features.op(*op));
-    (names || features.has(Feature::System))
+    (names || features.has(Feature::System) || features.role(Role::Turret))
         && !context.source.is_same_machine(context.target)
         && (!context.source.places_there().is_empty()
             || [MOVES, OFFSETS]
@@ -47,6 +47,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut Context<'_>) {
     let numbers = Numbers::of(module);
     let read = read_places(module);
+    let selected = selected(module);
     let homes = moves_from_home(module).then(|| Homes::of(module, facts));
     let answer = |question| context.target.behaviour(question).map(|row| row.value.clone());
     let [moves, offsets] = [MOVES, OFFSETS].map(answer);
@@ -56,6 +57,8 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
     // Under G91 the words are a way on some machines.
     let in_steps = context.source.behaviour(Question::MachineUnderIncremental);
     let in_steps = in_steps.is_some_and(|row| row.value == "increments");
+    // Where the geometry stays, a place counts from the tool as ever.
+    let away = context.source.behaviour(Question::TurretNone).is_none_or(|row| row.value != "wear");
     for (index, program) in module.programs.iter().enumerate() {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         let cancels = stmts.any(|stmt| stmt.kind.has_op(Op::ShiftCancel));
@@ -74,9 +77,11 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
                     continue;
                 }
                 let names = match &stmt.kind {
-                    StmtKind::Nc(nc) => of_block(nc, &state, &numbers, [one_family, in_steps, cancels]),
-                    StmtKind::Assign { target: Place::System(Sys::WorkOffset, _), value } => {
-                        numbers.is_place(None, value, one_family)
+                    StmtKind::Nc(nc) => of_block(nc, &state, &numbers, [one_family, in_steps, cancels, away]),
+                    StmtKind::Assign { target: Place::System(Sys::WorkOffset, row), value } => {
+                        // Under an offset of 0 places are those of the machine.
+                        let zero = value.constant() == Some(0.0);
+                        zero && selects(row, &selected) || numbers.is_place(None, value, one_family)
                     }
                     _ => false,
                 };
@@ -85,7 +90,11 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
                 if !names || answer.as_deref() == Some("same") {
                     continue;
                 }
-                tell((index, stmt.site.span), (question, answer.as_deref()), NAMED, context);
+                let what = match stmt.kind.nc() {
+                    Some(nc) if without_offset(nc) => WITHOUT,
+                    _ => NAMED,
+                };
+                tell((index, stmt.site.span), (question, answer.as_deref()), what, context);
             }
             let TermKind::Branch { cond, .. } = &block.term.kind else { continue };
             let span = block.term.site.span;
@@ -102,10 +111,24 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
 
 const NAMED: &str = "this is a place in machine coordinates of the old machine: say in the target's profile where it lies on the new one \
                      (machine_places = [\"X-11. as X-300.\"])";
+const WITHOUT: &str = "no tool offset is in force in this block, so its place hangs on the zero and the size of the old machine: say in the target's \
+                       profile where it lies on the new one (machine_places = [\"X-500. Z-50. as X-200. Z-100.\"])";
 const STEPPED: &str = "this way begins at the reference position and leads to a place in machine coordinates of the old machine: write the way \
                        of the new one into the conversion";
 const COMPARED: &str = "a work offset or a machine position is compared with a number of the old machine: write the number of the new one into \
                         the conversion";
+
+/// The work offsets that the programs of a library select.
+fn selected(module: &Module) -> BTreeSet<u64> {
+    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let chosen = stmts.filter_map(|stmt| stmt.kind.nc()).filter(|nc| nc.has(Op::SelectWork));
+    chosen.filter_map(|nc| nc.word(Role::WorkOffset)?.constant()).map(f64::to_bits).collect()
+}
+
+/// True where an offset, by its subscripts, is one of these.
+fn selects(row: &[Expr], selected: &BTreeSet<u64>) -> bool {
+    row.first().and_then(Expr::constant).is_some_and(|number| selected.contains(&number.to_bits()))
+}
 
 /// True where a program goes home.
 fn moves_from_home(module: &Module) -> bool {
@@ -208,13 +231,18 @@ fn has_number(all: [&Expr; 2], read: &HashMap<Var, Sys>, numbers: &Numbers) -> b
 }
 
 /// True if a block names such a place; `state` is what is in force in it.
-fn of_block(nc: &Nc, state: &Modal, numbers: &Numbers, [one_family, in_steps, cancels]: [bool; 3]) -> bool {
+fn of_block(
+    nc: &Nc,
+    state: &Modal,
+    numbers: &Numbers,
+    [one_family, in_steps, cancels, away]: [bool; 4],
+) -> bool {
     let steps = state.op(Group::Distance) == Some(Op::Incremental);
     let cancelled = match state.op(Group::WorkOffset) {
         Some(op) => op == Op::ShiftCancel,
         None => state.may_be_cancelled || cancels,
     };
-    let shiftless = cancelled && nc.moves();
+    let shiftless = cancelled && nc.moves() || away && without_offset(nc);
     let once = nc.has(Op::MachineOnce) && !(steps && in_steps);
     let counts = once || !steps && (shiftless || nc.has(Op::WriteWork));
     // A shift of all work offsets is no place.

@@ -9,6 +9,13 @@ use crate::diag::Diagnostic;
 use crate::dialect::{Control, Question};
 use crate::ir::{Expr, Nc, NcItem};
 use crate::legalize::Context;
+use std::collections::BTreeMap;
+
+/// True for a cycle whose code takes a wait that counts.
+pub(super) fn waits(op: Op, control: &Control) -> bool {
+    let row = control.code_for(op, &BTreeMap::new());
+    row.is_some_and(|row| row.takes(Role::CycleDwell)) && !is_none(op, control)
+}
 
 /// True for a cycle of which the profile says that its wait is nothing.
 pub(super) fn is_none(op: Op, control: &Control) -> bool {

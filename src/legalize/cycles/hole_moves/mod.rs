@@ -226,11 +226,7 @@ impl Writer<'_, '_> {
             Some(_) => (stands.0, None),
             None => stands,
         };
-        let dwells = drill.op.is_some_and(|op| {
-            let row = self.context.source.code_for(op, &BTreeMap::new());
-            !needless_waits::is_none(op, self.context.source)
-                && row.is_some_and(|row| row.takes(Role::CycleDwell))
-        });
+        let dwells = drill.op.is_some_and(|op| needless_waits::waits(op, self.context.source));
         let clear = self.clearance(modal);
         let back = self.rules.back(modal);
         if modal.op(Group::ReturnPlane).is_none() && back.is_some() {
