@@ -4,10 +4,12 @@
 //! next, and back to the centre along a half circle; so do blocks with these moves, in increments from where the tool stands. The
 //! cutter radius is read from its offset, with its wear where the target keeps that apart, and taken off. Side conditions: the words are
 //! numbers, the block names an offset, the
-//! plane is that of X and Y, neither compensation nor a drilling cycle is in force, and what is in force comes back after it. That
+//! plane is that of X and Y, coordinates are neither scaled nor mirrored, where they are turned the tool stands at a place in them
+//! ([`turned`]), neither compensation nor a drilling cycle is in force, and what is in force comes back after it. That
 //! the source goes so is `machine:pocket.path`, which a figure of its maker alone shows. Counter-example: `G13 I.5 D1` under `G41`.
 
 mod path;
+mod turned;
 
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
@@ -45,7 +47,7 @@ pub fn concerns(features: &Features) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let turned = in_other_planes(module);
-    let [drills, shapes, compensates] = IN_THE_WAY.map(|(on, off)| after_one_of(module, on, off));
+    let [drills, turns, shapes, compensates] = IN_THE_WAY.map(|(on, off)| after_one_of(module, on, off));
     let kept = |state| context.target.system_runs(state).next().is_some();
     let wears = [Sys::RadiusWear, Sys::DiameterWear, Sys::DiameterOrRadiusWear].into_iter().any(kept);
     for index in 0..module.programs.len() {
@@ -62,6 +64,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let never = Never {
                     turned: !is_after(&turned),
                     drills: !is_after(&drills),
+                    turns: !is_after(&turns),
                     shapes: !is_after(&shapes),
                     compensates: !is_after(&compensates),
                 };
@@ -69,8 +72,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     fit.retain(|_| !may_write_offsets(stmt));
                     continue;
                 }
-                let mut pocket =
-                    read(stmt, (&before, &state), needs_motion(block, place), (context.source, never));
+                let mut pocket = read(
+                    stmt,
+                    (&before, &state),
+                    (needs_motion(block, place), turned::is_known(block, place, &before)),
+                    (context.source, never),
+                );
                 if let Ok(pocket) = &mut pocket {
                     let first = pocket.circles.first().copied().unwrap_or_default();
                     pocket.fits =
@@ -127,6 +134,10 @@ fn tell(pocket: &Result<Pocket, &'static str>, index: usize, stmt: &Stmt, contex
             if pocket.depth.is_some() && pocket.goes_on && !known {
                 context.add(index, Diagnostic::new(Code::Conditional, stmt.site.span, GOES_ON));
             }
+            if pocket.is_turned {
+                let told = Diagnostic::new(Code::Conditional, stmt.site.span, turned::TOLD).asked_once();
+                context.add_once(index, turned::TOLD, told);
+            }
             if !context.source.has_tried(FACT) {
                 // More than a fact of the machine: whoever runs the program looks at its path first.
                 let told = Diagnostic::new(Code::Conditional, stmt.site.span, TAKEN).with_fact(FACT);
@@ -146,11 +157,12 @@ fn tell(pocket: &Result<Pocket, &'static str>, index: usize, stmt: &Stmt, contex
 type Which = fn(Op) -> bool;
 
 /// What may not be in force at a round pocket: the codes that begin it, and those that end it.
-const IN_THE_WAY: [(Which, Which); 3] = [
+const IN_THE_WAY: [(Which, Which); 4] = [
     (Op::is_cycle, |op| op == Op::CycleOff),
+    (|op| op == Op::RotateOn, |op| op == Op::RotateOff),
     (
-        |op| matches!(op, Op::RotateOn | Op::ScaleOn | Op::MirrorOn),
-        // What ends one of the three may leave another.
+        |op| matches!(op, Op::ScaleOn | Op::MirrorOn),
+        // What ends one of the two may leave another.
         |_| false,
     ),
     (|op| matches!(op, Op::RadiusLeft | Op::RadiusRight), |op| op == Op::RadiusOff),
@@ -177,6 +189,7 @@ fn after_one_of(module: &Module, on: Which, off: Which) -> BTreeSet<(usize, Span
 struct Never {
     turned: bool,
     drills: bool,
+    turns: bool,
     shapes: bool,
     compensates: bool,
 }
@@ -212,7 +225,7 @@ fn goes_on(block: &Block, place: usize) -> bool {
 fn read(
     stmt: &Stmt,
     (before, state): (&Modal, &Modal),
-    needs_motion: bool,
+    (needs_motion, in_turned): (bool, bool),
     (source, never): (&Control, Never),
 ) -> Result<Pocket, &'static str> {
     let StmtKind::Nc(nc) = &stmt.kind else { return Err("it is no block of words") };
@@ -240,10 +253,15 @@ fn read(
     {
         return Err("it is not known here that G80 and G40 are in force");
     }
-    let flat =
-        [(Group::Rotation, Op::RotateOff), (Group::Scaling, Op::ScaleOff), (Group::Mirror, Op::MirrorOff)];
+    let flat = [(Group::Scaling, Op::ScaleOff), (Group::Mirror, Op::MirrorOff)];
     if !flat.into_iter().all(|(group, none)| off(group, none, never.shapes)) {
-        return Err("it is not known here that coordinates are neither turned, scaled nor mirrored");
+        return Err("it is not known here that coordinates are neither scaled nor mirrored");
+    }
+    let is_turned = !off(Group::Rotation, Op::RotateOff, never.turns);
+    if is_turned && !in_turned {
+        return Err(
+            "coordinates may be turned here, and it is not known by which block, or no block goes to a place in them before it",
+        );
     }
     if state.may_call() || state.op(Group::FeedMode) == Some(Op::FeedInverse) {
         return Err("a macro is called after each move, or feeds are of inverse time");
@@ -295,6 +313,7 @@ fn read(
         fits: false,
         goes_on: false,
         wears: true,
+        is_turned,
     })
 }
 

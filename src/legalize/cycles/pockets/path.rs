@@ -30,6 +30,8 @@ pub(super) struct Pocket {
     pub goes_on: bool,
     /// True where the target keeps wear apart from a size: else the size of its table has it.
     pub wears: bool,
+    /// True where it may stand in coordinates that are turned.
+    pub is_turned: bool,
 }
 
 /// Writes its moves.
