@@ -45,6 +45,9 @@ pub fn run(arguments: &Arguments) -> u8 {
     }
 }
 
+/// Files that are named of those that are left out.
+const MOST_NAMED: usize = 3;
+
 fn work(arguments: &Arguments) -> Result<(), u8> {
     let (inputs, left_out) = read_all(&arguments.paths)?;
     let to = arguments.to.as_deref();
@@ -83,6 +86,17 @@ fn work(arguments: &Arguments) -> Result<(), u8> {
             "left out {}: {}; name the file itself to read it",
             left.path.display(),
             left.why.words()
+        ));
+    }
+    let unknown: Vec<String> = (left_out.iter().filter(|left| left.why == WhyNot::Unknown))
+        .map(|left| left.path.display().to_string())
+        .collect();
+    if !unknown.is_empty() {
+        let named = unknown.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+        let more = if unknown.len() > MOST_NAMED { ", ..." } else { "" };
+        let (files, count) = (if unknown.len() == 1 { "file" } else { "files" }, unknown.len());
+        remark(format!(
+            "left out {count} {files} with an unknown ending: {named}{more}; name a file itself to read it"
         ));
     }
     let mut survey = common::with_spinner(format!("looking at {} files", inputs.len()), || {

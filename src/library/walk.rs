@@ -27,7 +27,7 @@ const ENDINGS: &[&str] = &[
     "ncf", "fnc", "h",
 ];
 
-/// The programs of a folder: files whose ending programs have, or that have none and a number. Ignore files are honoured;
+/// The programs of a folder: files whose ending programs have, or that have none and a number, or begin as programs do. Ignore files are honoured;
 /// those above the folder are not if they hide all of it, for it was named by hand.
 ///
 /// # Errors
@@ -56,7 +56,9 @@ fn look(folder: &Path, endings: &[String], above: bool) -> Result<Walked, InputE
         let entry = entry.map_err(fault)?;
         let path = entry.path();
         if let Some(kind) = entry.file_type().filter(|kind| !kind.is_dir()) {
-            if kind.is_file() && is_program(path, endings) {
+            // Without an ending its text says what it is.
+            let bare = || path.extension().is_none() && looks_like_program(path);
+            if kind.is_file() && (is_program(path, endings) || bare()) {
                 if is_for_people(path) {
                     walked.left_out.push(LeftOut { path: path.to_owned(), why: WhyNot::Prose });
                 } else {
@@ -139,7 +141,8 @@ fn is_for_people(path: &Path) -> bool {
     read.is_ok() && is_prose(&String::from_utf8_lossy(&head))
 }
 
-/// True for a file that begins as programs do: with the mark of a tape (`%`), if any, and then with the number of a program.
+/// True for a file that begins as programs do: with the mark of a tape (`%`), if any, and then with the number of a program or its
+/// name in angle brackets.
 fn looks_like_program(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(LOOKED_AT).read_to_end(&mut head));
@@ -154,10 +157,22 @@ fn looks_like_program(path: &Path) -> bool {
         .strip_prefix('N')
         .map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start());
     let first = after_n.unwrap_or(first);
+    if first
+        .strip_prefix('<')
+        .and_then(|rest| rest.split_once('>'))
+        .is_some_and(|(name, _)| !name.trim().is_empty() && !name.starts_with(['!', '?', '/']))
+    {
+        return !is_markup(&text);
+    }
     program_marks().iter().filter_map(|mark| first.strip_prefix(mark)).any(|rest| {
         let name = rest.trim_start_matches(|c: char| c.is_ascii_digit());
         name.len() < rest.len() && !name.starts_with(|c: char| c.is_ascii_alphanumeric())
     })
+}
+
+/// True for a page or a table in angle brackets all over, which is no program.
+fn is_markup(text: &str) -> bool {
+    text.contains("</") || text.contains("/>")
 }
 
 /// The mark at both ends of a tape.

@@ -3,6 +3,7 @@
 use super::filled::{ASKS, TELLS, plain};
 use super::{AskedCode, Survey};
 use crate::canon::Op;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 /// The section of a profile with a line for each code.
@@ -51,7 +52,8 @@ const PAIRED: &str = "Two codes on one line, as they stand in the same programs:
                       Write a line for each where only one has such a code.";
 
 /// The codes that share a line, by their places in the list, the lower number first: on and off have numbers beside each other. Which two they are
-/// is no matter of meaning, for each has its own answer.
+/// is no matter of meaning, for each has its own answer. Of numbers in a row each pair begins at an odd place: three in a row are no pair and
+/// a half, for nobody can tell which two belong together.
 fn pairs(codes: &[AskedCode]) -> Vec<(usize, usize)> {
     let number = |code: &AskedCode| -> Option<(char, u32)> {
         let plain = code.op.is_none() && code.words.is_empty() && code.calls.is_empty();
@@ -64,7 +66,11 @@ fn pairs(codes: &[AskedCode]) -> Vec<(usize, usize)> {
             let (Some((letter, low)), Some((same, high))) = (number(one), number(two)) else { continue };
             let apart = high.saturating_sub(low);
             let shared = one.of.intersection(&two.of).count();
-            if letter == same && (1..=2).contains(&apart) && shared > 0 {
+            if letter == same
+                && (1..=2).contains(&apart)
+                && shared > 0
+                && may_pair(codes, letter, [low, high])
+            {
                 let of = one.of.union(&two.of).count();
                 // Those that stand in the same programs first, then those whose numbers are beside each other.
                 all.push((apart, std::cmp::Reverse(shared * 1000 / of), low, at, other));
@@ -79,6 +85,18 @@ fn pairs(codes: &[AskedCode]) -> Vec<(usize, usize)> {
         }
     }
     taken
+}
+
+/// True for two numbers of which the row of asked numbers that they stand in makes a pair.
+fn may_pair(codes: &[AskedCode], letter: char, [low, high]: [u32; 2]) -> bool {
+    let number = |code: &AskedCode| code.code.strip_prefix(letter)?.parse::<u32>().ok();
+    let all: BTreeSet<u32> = codes.iter().filter_map(number).collect();
+    if high - low > 1 {
+        return !all.contains(&(low + 1));
+    }
+    let below = (0..low).rev().take_while(|number| all.contains(number)).count();
+    let above = (high + 1..).take_while(|number| all.contains(number)).count();
+    below % 2 == 0 && above % 2 == 0
 }
 
 fn pair(text: &mut String, of: [&AskedCode; 2], goes: bool) {
@@ -185,6 +203,17 @@ mod tests {
         let rows: Vec<_> =
             profile.site.iter().map(|row| (row.code.as_str(), row.target.as_deref())).collect();
         assert_eq!(rows, [("M110", Some("M68")), ("M111", Some("M69"))]);
+    }
+
+    /// On, back and off of a live tool: nobody can tell which two belong together. Of four in a row there are two pairs.
+    #[test]
+    fn three_codes_in_a_row_are_no_pair() {
+        let three = asked("O1\nG21 G90\nM143\nG0 X1.\nM144\nM145\nM30\n", PLAIN);
+        for code in ["M143", "M144", "M145"] {
+            assert!(three.contains(&format!("#? {code} = {{ target = \"\"")), "{three}");
+        }
+        let four = asked("O1\nG21 G90\nM143\nG0 X1.\nM144\nM145\nM146\nM30\n", PLAIN);
+        assert!(four.contains("#? \"M143, M144\"") && four.contains("#? \"M145, M146\""), "{four}");
     }
 
     #[test]

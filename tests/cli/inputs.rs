@@ -199,6 +199,23 @@ fn nothing_is_left_out_in_silence() {
     assert!(run.out.contains("{\"path\":\"in/d.pdf\",\"why\":\"unknown\"}"), "{}", run.out);
 }
 
+/// A file without an ending that begins as programs do is one; the survey names what it does not read.
+#[test]
+fn a_name_without_an_ending_is_no_reason_to_leave_a_program_out() {
+    let shop = Shop::with(&[
+        ("in/a.nc", CLEAN),
+        ("in/PROBE_IN", "%\n<PROBE_IN>(PROBE)\nG21 G90 G0 X1.\nM30\n%\n"),
+        ("in/SETTER", "%\nO77(SETTER)\nG21 G90 G0 X1.\nM30\n%\n"),
+        ("in/LICENCE", "Anyone may use these programs.\n"),
+        ("in/page", "<html>\n<p>O1</p>\n</html>\n"),
+        ("in/b.bak", "O1\nM30\n"),
+    ]);
+    let run = shop.run("survey in --from fanuc --to haas");
+    assert!(run.out.contains("library   3 programs in 3 files"), "{}", run.out);
+    let told = "left out 2 files with an unknown ending: in/LICENCE, in/page; name a file itself to read it";
+    assert!(run.err.contains(told) && run.err.contains("in/b.bak"), "{}", run.err);
+}
+
 /// An ignore file says what a walk passes by; a folder that is named by hand is not passed by.
 #[test]
 fn an_ignored_folder_that_is_named_is_read() {

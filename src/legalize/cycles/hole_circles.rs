@@ -69,7 +69,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                     }
                     Err(why) => {
                         let what = format!("holes in a pattern cannot be written out: {why}");
-                        let help = "write the places of the holes into blocks of their own";
+                        let help = match why {
+                            super::pockets::NO_UNIT => super::pockets::UNIT_HELP,
+                            _ => "write the places of the holes into blocks of their own",
+                        };
                         let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
                         context.add(index, finding.with_help(help));
                         place = Place::default();
@@ -235,7 +238,7 @@ fn holes(stmt: &Stmt, state: &Modal, place: Place, rules: &Rules<'_>) -> Result<
         return Err("it is not known here where the tool stands: write X and Y as numbers before it");
     };
     let parts = parts_of_unit(state, rules.source);
-    let parts = parts.ok_or("it is not known here whether lengths are inches or millimetres")?;
+    let parts = parts.ok_or(super::pockets::NO_UNIT)?;
     // No minus before 0.
     let counted = |place: f64| (place * parts).round() / parts + 0.0;
     let hole = |at: u32| {

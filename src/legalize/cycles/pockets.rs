@@ -38,6 +38,13 @@ const TAKEN: &str = "a round pocket (G12, G13) is written out as arcs. Taken: Z 
 const GOES_ON: &str = "after this pocket the program moves along X or Y before it raises Z, and the target's tool is at the depth of the pocket then: \
      make sure that the source's is too, and does not come back up by itself";
 
+/// Why what counts in a unit cannot be written out.
+pub(super) const NO_UNIT: &str = "it is not known here whether lengths are inches or millimetres";
+
+/// What to do then.
+pub(super) const UNIT_HELP: &str = "write G20 or G21 before it; or, if programs that name no unit are in that of the machine, units = \"inch\" or \"metric\" into the \
+     source's profile";
+
 /// True where the library has such blocks.
 pub fn concerns(features: &Features) -> bool {
     features.any_op(Op::is_pocket)
@@ -147,7 +154,7 @@ fn tell(pocket: &Result<Pocket, &'static str>, index: usize, stmt: &Stmt, contex
         }
         Err(why) => {
             let what = format!("a round pocket (G12, G13) cannot be written out as arcs: {why}");
-            let help = "write its arcs into the program by hand";
+            let help = if *why == NO_UNIT { UNIT_HELP } else { "write its arcs into the program by hand" };
             context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help));
         }
     }
@@ -292,7 +299,7 @@ fn read(
         return Err("L is not a whole number from 1 to 100, or repeats the same depth under G90");
     }
     let parts = parts_of_unit(state, source);
-    let parts = parts.ok_or("it is not known here whether lengths are inches or millimetres")?;
+    let parts = parts.ok_or(NO_UNIT)?;
     let words = [number(Role::PocketFirst)?, number(Role::PocketLast)?, number(Role::PocketStep)?];
     let circles = circles(words, parts)?;
     if circles.len() * count as usize > MOST {

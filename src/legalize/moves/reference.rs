@@ -128,8 +128,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                      G91 is in force: write one of them before it",
                 ),
             };
-            // Where the source's axes return together, those of the target do the same.
-            if code == Code::NoEquivalent || !context.source.is(Question::ReferenceTogether) {
+            // Where the source's axes return together, those of the target do the same. No source says it of C and of further axes.
+            let is_said = |role: &Role| !matches!(role, Role::C | Role::U | Role::V | Role::W);
+            let together = context.source.is(Question::ReferenceTogether) && own[index].iter().all(is_said);
+            if code == Code::NoEquivalent || !together {
                 let told = Diagnostic::new(code, span, what).asked_once();
                 context.add(index, if untold { told.with_help(UNTOLD_HELP) } else { told });
             }

@@ -219,7 +219,8 @@ impl Lowering<'_> {
                 let what = "A is no axis of this machine, as its profile lists its axes, and the angle of a line only in a block that cuts";
                 self.findings.not_understood(span, what);
             } else if found {
-                let what = format!("{what}: axes = [\"X\", \"Z\", ...]");
+                const LIST: &str = "axes = [\"X\", \"Z\", ...]";
+                let what = format!("{what}: {LIST}");
                 // The angle is read with its comma and without on a lathe that has no such axis.
                 let setting = self.corner_letters().filter(|_| chamfer);
                 let told = match setting {
@@ -230,7 +231,10 @@ impl Lowering<'_> {
                         );
                         Diagnostic::new(Code::NotUnderstood, span, what).lacking(name)
                     }
-                    None => Diagnostic::new(Code::NotUnderstood, span, what),
+                    None => {
+                        let help = format!("write the axes that the machine has into its profile: {LIST}");
+                        Diagnostic::new(Code::NotUnderstood, span, what).with_help(help)
+                    }
                 };
                 self.findings.add(told);
             }
