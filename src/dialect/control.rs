@@ -32,6 +32,8 @@ pub struct Control {
     pub(super) standing_results: StandingResults,
     /// Where places of other machines lie on this one.
     pub(super) machine_places: MachinePlaces,
+    /// The numbers that it leaves to programs of other machines.
+    pub(super) program_numbers: Vec<(u32, u32)>,
     /// Where its own places lie on the machine that its programs go to.
     pub(super) places_there: MachinePlaces,
     pub(super) rapid_will_do: bool,
@@ -97,6 +99,7 @@ impl Control {
             standing,
             standing_results: StandingResults::default(),
             machine_places: MachinePlaces::default(),
+            program_numbers: Vec::new(),
             places_there: MachinePlaces::default(),
             rapid_will_do: false,
             codes,

@@ -78,6 +78,10 @@ impl Profile {
             variables: self.variables.or(base.variables),
             programs: both(base.programs, self.programs),
             standing_results: both(base.standing_results, self.standing_results),
+            program_numbers: match self.program_numbers.is_empty() {
+                true => base.program_numbers,
+                false => self.program_numbers,
+            },
             machine_places: both(base.machine_places, self.machine_places),
             confirm: both(base.confirm, self.confirm),
             site,

@@ -35,6 +35,7 @@ mod overlay_settings;
 mod overlay_variables;
 mod page;
 mod profile;
+mod program_numbers;
 mod question_groups;
 mod questions;
 mod reader;

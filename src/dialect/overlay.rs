@@ -47,6 +47,7 @@ impl Control {
         };
         let standing_results = overlay.standing_results(dialect.names.numbered.as_deref(), &shared);
         let machine_places = overlay.machine_places();
+        let program_numbers = overlay.program_numbers(dialect.text.program_max);
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
@@ -59,6 +60,7 @@ impl Control {
         let place = profile.place("start:codes").unwrap_or(0..0);
         let mut control = Control::index(entry, dialect, profile, settings, (reserved, standing));
         (control.machine_places, control.standing_results) = (machine_places, standing_results);
+        control.program_numbers = program_numbers;
         match control.read_start() {
             Ok(()) => Ok(control),
             Err((message, help)) => {

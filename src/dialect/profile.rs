@@ -58,6 +58,8 @@ pub struct Profile {
     /// Programs that stand in the machine and do the same as those of their numbers on the machine that calls of them come
     /// from: `O9810`, `O9700-O9999`, `O910002 as O8006`.
     pub programs: Vec<String>,
+    /// The numbers that programs get there which have none, or another one, on the source: `O1000-O1999`.
+    pub program_numbers: Vec<String>,
     /// Places in machine coordinates of the machine that programs come from, and where each lies on this one:
     /// `X-11. Z-13. as X-300. Z-200.`.
     pub machine_places: Vec<String>,

@@ -42,6 +42,11 @@ impl Standing {
         self.runs.is_empty() && self.others.is_empty()
     }
 
+    /// True if any of them has this number or a higher one.
+    pub fn any_from(&self, number: u32) -> bool {
+        self.runs.iter().any(|(_, last)| *last >= number) || self.others.values().any(|here| *here >= number)
+    }
+
     fn holds(&self, number: u32) -> bool {
         self.runs.iter().any(|(first, last)| (*first..=*last).contains(&number))
     }
@@ -72,6 +77,14 @@ fn read(text: &str) -> Option<Entry> {
             let last = last.trim();
             Some(Entry::Run(number(first)?, number(last).or_else(|| digits(last))?))
         }
+    }
+}
+
+/// First and last number of a run of programs: `O9810` or `O9700-O9999`.
+pub(super) fn run_of(text: &str) -> Option<(u32, u32)> {
+    match read(text)? {
+        Entry::Run(first, last) => Some((first, last)),
+        Entry::As(..) => None,
     }
 }
 

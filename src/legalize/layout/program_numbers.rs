@@ -43,8 +43,24 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 fn refuse_shadows(module: &Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter().enumerate() {
         let Some(name @ ProgramName::Number(number)) = &program.name else { continue };
-        let Some(entry) = context.target.standing().entry_of(*number) else { continue };
         let name = name.short();
+        let Some(entry) = context.target.standing().entry_of(*number) else {
+            let standing = context.target.standing();
+            let near = standing.is_taken(*number) || *number >= LOCKED && standing.any_from(LOCKED);
+            if near && !context.target.leaves_number(*number) {
+                let what = format!(
+                    "the target's profile names programs under 'programs' that stand on the machine, and {name} keeps its number there: if a \
+                     program of this number stands there too, this one would be written over it"
+                );
+                let help = format!(
+                    "if one stands there, leave this program out, and name it in 'programs' where it does the same; if the number is free, say \
+                     so in the target's profile: program_numbers = [\"{name}\"]"
+                );
+                let told = Diagnostic::new(Code::Conditional, program.site.span, what);
+                context.add(index, told.with_help(help));
+            }
+            continue;
+        };
         let what = format!(
             "the target's profile says under 'programs' that {name} stands on the machine ('{entry}'), and this program is \
              {name}: it would be written over the other"
@@ -52,6 +68,15 @@ fn refuse_shadows(module: &Module, context: &mut Context<'_>) {
         let help = "take it out of 'programs' in the profile, or leave this program out";
         context.add(index, Diagnostic::new(Code::NoEquivalent, program.site.span, what).with_help(help));
     }
+}
+
+/// The numbers to look through for a program, in their order: those that the profile leaves to programs, else all.
+fn numbers_from(first: u32, max: u32, left: &[(u32, u32)]) -> impl Iterator<Item = u32> + use<> {
+    let runs = match left {
+        [] => vec![(first, max), (1, first - 1)],
+        left => left.to_vec(),
+    };
+    runs.into_iter().flat_map(|(first, last)| first..=last)
 }
 
 fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> ProgramNumbers {
@@ -79,9 +104,11 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
     // Numbers are only ever taken: each search goes on where the last one ended.
     let mut before = context.earlier.numbers.clone();
     let kept: BTreeSet<u32> = before.values().copied().collect();
-    let mut free = [FIRST_MAIN, FIRST_SUB].map(|first| (first..=max).chain(1..first));
+    let left: Vec<(u32, u32)> = context.target.program_numbers().collect();
+    let mut free = [FIRST_MAIN, FIRST_SUB].map(|first| numbers_from(first, max, &left));
     let of_files = by_files(module, max, &context.origins, &|n| {
-        !(taken.contains(&n) || kept.contains(&n) || stands(n) || bounded && looked_for.contains(n))
+        let open = left.is_empty() || context.target.leaves_number(n);
+        open && !(taken.contains(&n) || kept.contains(&n) || stands(n) || bounded && looked_for.contains(n))
     });
     taken.extend(of_files.values().copied().flatten());
     // Longer numbers may be an option of the machine.
@@ -128,7 +155,12 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
                 out.push((name.clone(), number));
             }
             None => {
-                let what = format!("no program number up to {max} is free for '{key}'");
+                let what = match left.is_empty() {
+                    true => format!("no program number up to {max} is free for '{key}'"),
+                    false => {
+                        format!("no number of 'program_numbers' of the target's profile is free for '{key}'")
+                    }
+                };
                 context.add(index, Diagnostic::new(Code::OutOfNumbers, program.site.span, what));
             }
         }
