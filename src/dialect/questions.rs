@@ -261,7 +261,7 @@ questions! {
     HoleWaitCalls "hole.wait.calls" OneOf(&["none", "unknown"]), "what P of a call (M97, M98, G65, M99) is to a later hole of a lathe that has no P: no wait", if "said";
     HolePeckLasts "hole.peck.lasts" OneOf(&["block", "lasts", "unknown"]), "how long Q of a hole of a lathe counts: in its own block, so that the next holes without Q are drilled in one go, or until the cycle \
                                                                             ends", if "op:hole.face or op:hole.face.peck";
-    LogicRank "logic.rank" OneOf(&["listed", "unknown"]), "the order of AND, OR, XOR and NOT without brackets: as the table ranks them", if "said";
+    LogicRank "logic.rank" OneOf(&["listed", "unknown"]), "the order of AND, OR, XOR, NOT and of comparisons without brackets: as the table ranks them, so that A AND B EQ C is A AND [B EQ C] where comparisons come first", if "said";
     ModalGroups "modal.groups" OneOf(&["code", "unknown"]), "what a program reads of the modal groups other than motion: the code itself", if "said";
     OffsetNumbers "offset.numbers" OneOf(&["listed", "unknown"]), "the numbers of tool lengths and cutter radii in a memory of another make: as the table lists them", if "said";
     Corners "corners" OneOf(&["words", "moves"]), "how corners and angles of lines are written in programs for this lathe: by their words, or as moves", if "said";

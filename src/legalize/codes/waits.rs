@@ -1,7 +1,7 @@
 //! State that is read before the moves are done, on a control that runs macro statements early.
 //!
 //! Law: where the target works out macro statements while moves before them are still to come, a wait before a statement that
-//! reads what moves change, or that switches an output, lets it see and do what it would where the text has it. A wait
+//! reads what moves change, that reads or sets a clock, or that switches an output, lets it see and do what it would where the text has it. A wait
 //! computes nothing. Where no move is to come it waits for nothing. A mill that has no wait is told to read no further ahead
 //! than one block, with empty blocks to hold it back, and as far as before after them. Side condition: it takes no such limit
 //! under cutter compensation: where that may be in force (`compensated`), nothing is put in, and each such place is reported. Counter-example: `G1 G31 X50.`, `V1=AX`, which
@@ -166,7 +166,8 @@ fn look(block: &mut Block, waited: &mut bool, limits: bool, under: &mut Under<'_
 
 fn is_early(kind: &StmtKind, limits: bool) -> bool {
     let switches = matches!(kind.target(), Some(Place::System(Sys::Output | Sys::OutputInverted, _)));
-    let mut early = !limits && switches;
+    let sets = matches!(kind.target(), Some(Place::System(state, _)) if runs_on(*state));
+    let mut early = !limits && (switches || sets);
     kind.exprs(&mut |e| early |= reads(e, limits));
     early
 }
@@ -177,11 +178,18 @@ fn reads(e: &Expr, limits: bool) -> bool {
         found |= match e {
             Expr::System(state, _) if limits => state.is_read_early(),
             // The tool in the spindle is that of the last change that was made, not of one that was read.
-            Expr::System(state, _) => state.is_changed_by_moves() || *state == Sys::ActiveTool,
+            Expr::System(state, _) => {
+                state.is_changed_by_moves() || *state == Sys::ActiveTool || runs_on(*state)
+            }
             _ => false,
         }
     });
     found
+}
+
+/// True for a clock that runs on while moves and waits are made: set and read early, it has none of their time.
+fn runs_on(state: Sys) -> bool {
+    matches!(state, Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds)
 }
 
 fn wait(site: &SourceInfo, limits: bool, out: &mut Stmts) {

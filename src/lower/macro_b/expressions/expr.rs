@@ -3,12 +3,23 @@
 use super::cond::is_condition;
 use super::place::{At, MAX_DEPTH};
 use crate::canon::{Func, Role};
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BinOp, Expr};
-use crate::lower::common::constant;
+use crate::lower::common::{constant, relation};
 use crate::lower::macro_b::build::Lowering;
 use crate::syntax::{self, BinaryOp, ExprKind};
 use crate::text::Span;
+
+const NEVER_CHANGES: &str = "these two numbers are compared with each other, which never changes: the comparison comes before AND, OR and XOR on this control";
+const BRACKETS: &str =
+    "if it was meant the other way round, put brackets round what comes first: [#1 AND 4] EQ 4";
+
+/// True for a comparison of two numbers, without brackets round it.
+fn compares_numbers(e: &syntax::Expr) -> bool {
+    let ExprKind::Binary(op, operands) = &e.kind else { return false };
+    relation(*op).is_some() && operands.iter().all(|operand| matches!(operand.kind, ExprKind::Number(_)))
+}
 
 impl<'a> Lowering<'a> {
     /// The value of an expression. What has no meaning is reported, and the value is 0.
@@ -97,6 +108,10 @@ impl<'a> Lowering<'a> {
                 if let Some(row) = self.control.operator(name).or_else(bits) {
                     self.findings.rest_on(row, operand.span);
                 }
+            }
+            if matches!(op, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor) && compares_numbers(operand) {
+                self.findings
+                    .add(Diagnostic::new(Code::Conditional, operand.span, NEVER_CHANGES).with_help(BRACKETS));
             }
         }
     }
