@@ -113,6 +113,15 @@ impl Control {
         }
     }
 
+    /// The same machine with other rows: all that its profile says stays.
+    pub(super) fn with_rows(self, dialect: Dialect) -> Self {
+        let kept = (self.profile.clone(), self.settings.clone());
+        let made = Self::index(self.entry, dialect, kept.0, kept.1, (Vec::new(), Standing::default()));
+        let Self { dialect, codes, targets, words, system, states, aliases, behaviours, .. } = made;
+        let owner = OnceLock::new();
+        Self { owner, dialect, codes, targets, words, system, states, aliases, behaviours, ..self }
+    }
+
     /// Short name of its dialect.
     pub fn name(&self) -> &str {
         &self.dialect.name

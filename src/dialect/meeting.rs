@@ -60,19 +60,7 @@ impl Control {
         if !faults.is_empty() {
             return Err(source.no_meeting_of(&faults, "source"));
         }
-        let again = |control: Self, dialect| {
-            let (start, marks) = (control.start, (control.reserved, control.standing));
-            let places = (control.machine_places, control.places_there);
-            let rapid = control.rapid_will_do;
-            let results = control.standing_results;
-            let mut made = Self::index(control.entry, dialect, control.profile, control.settings, marks);
-            made.start = start;
-            (made.machine_places, made.places_there) = places;
-            made.standing_results = results;
-            made.rapid_will_do = rapid;
-            made
-        };
-        Ok((again(source, ours), again(target, theirs)))
+        Ok((source.with_rows(ours), target.with_rows(theirs)))
     }
 
     /// What is wrong at a place of the machine's profile.
