@@ -340,6 +340,13 @@ impl Machine {
                     Op::RotateOff
                 }
             }
+            Group::Scaling => {
+                if self.frame.scale.is_some() {
+                    Op::ScaleOn
+                } else {
+                    Op::ScaleOff
+                }
+            }
             Group::Coolant => self.coolant,
             _ => return None,
         })

@@ -13,7 +13,9 @@ use super::moved_places::{At, without_offset};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
-use crate::ir::{Cond, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind, TermKind, Var};
+use crate::ir::analysis::calls_of;
+use crate::ir::{Class, Cond, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind, TermKind, Var};
+use crate::legalize::calls::standing::tied_to;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
@@ -39,14 +41,21 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// target what its places are, where programs name others; true if any was given.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
+    let frames = frames(module, context);
     let moved = super::moved_places::run(module, &facts, context);
-    ask(module, &facts, &moved, context);
+    ask(module, &facts, &frames, &moved, context);
     !moved.is_empty()
 }
 
-fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut Context<'_>) {
+fn ask(
+    module: &Module,
+    facts: &ModalFacts,
+    frames: &[usize],
+    moved: &HashSet<At>,
+    context: &mut Context<'_>,
+) {
     let numbers = Numbers::of(module);
-    let read = read_places(module);
+    let read = read_places(module, frames);
     let selected = selected(module);
     let homes = moves_from_home(module).then(|| Homes::of(module, facts));
     let answer = |question| context.target.behaviour(question).map(|row| row.value.clone());
@@ -98,7 +107,8 @@ fn ask(module: &Module, facts: &ModalFacts, moved: &HashSet<At>, context: &mut C
             }
             let TermKind::Branch { cond, .. } = &block.term.kind else { continue };
             let span = block.term.site.span;
-            for state in compared(cond, &read, &numbers) {
+            let frame = frames.get(index).copied().unwrap_or_default();
+            for state in compared(cond, &|var| read.get(&key(frame, var)).copied(), &numbers) {
                 let offset = state == Sys::WorkOffset;
                 let (question, answer) = if offset { (OFFSETS, &offsets) } else { (MOVES, &moves) };
                 if answer.as_deref() != Some("same") {
@@ -158,16 +168,41 @@ fn tell(
     }
 }
 
+/// For each program a number that all have that see the same locals: those that call one another without a new level.
+fn frames(module: &Module, context: &mut Context<'_>) -> Vec<usize> {
+    let called = context.called(module);
+    let mut pairs = Vec::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let calls = calls_of(block).filter(|call| !call.level);
+            pairs.extend(calls.flat_map(|call| called.by((index, id), call)).map(|callee| (index, *callee)));
+        }
+    }
+    let mut frames: Vec<usize> = (0..module.programs.len()).collect();
+    let mut open: BTreeSet<usize> = pairs.iter().flat_map(|(caller, callee)| [*caller, *callee]).collect();
+    while let Some(first) = open.pop_first() {
+        for tied in tied_to([first], &pairs) {
+            open.remove(&tied);
+            frames.iter_mut().skip(tied).take(1).for_each(|frame| *frame = first);
+        }
+    }
+    frames
+}
+
+/// What a variable is in programs of a frame: a local is another one in each.
+fn key(frame: usize, var: Var) -> (Option<usize>, Var) {
+    ((var.class == Class::Local).then_some(frame), var)
+}
+
 /// The variables that hold one place which was read from the machine, with or without numbers: a work offset, or a position.
-fn read_places(module: &Module) -> HashMap<Var, Sys> {
-    let mut read: HashMap<Var, Sys> = HashMap::new();
+fn read_places(module: &Module, frames: &[usize]) -> HashMap<(Option<usize>, Var), Sys> {
+    let mut read = HashMap::new();
     // Twice, for what goes through another variable.
-    for _ in 0..2 {
-        for stmt in module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts)
-        {
+    for (program, frame) in module.programs.iter().zip(frames).chain(module.programs.iter().zip(frames)) {
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind else { continue };
-            if let Some(state) = one_place([value], &read) {
-                read.insert(*var, state);
+            if let Some(state) = one_place([value], &|var| read.get(&key(*frame, var)).copied()) {
+                read.insert(key(*frame, *var), state);
             }
         }
     }
@@ -175,12 +210,12 @@ fn read_places(module: &Module) -> HashMap<Var, Sys> {
 }
 
 /// The place that expressions hold, if they hold one: the difference of two is no place.
-fn one_place<'e>(all: impl IntoIterator<Item = &'e Expr>, read: &HashMap<Var, Sys>) -> Option<Sys> {
+fn one_place<'e>(all: impl IntoIterator<Item = &'e Expr>, read: &dyn Fn(Var) -> Option<Sys>) -> Option<Sys> {
     let mut found = Vec::new();
     all.into_iter().for_each(|value| {
         value.walk(&mut |part| match part {
             Expr::System(state @ (Sys::WorkOffset | Sys::MachinePosition), _) => found.push(*state),
-            Expr::Var(var) => found.extend(read.get(var).copied()),
+            Expr::Var(var) => found.extend(read(*var)),
             _ => {}
         });
     });
@@ -199,7 +234,7 @@ fn parts<'e>(value: &'e Expr, f: &mut dyn FnMut(&'e Expr)) {
 }
 
 /// What a condition holds against numbers of its program: a work offset, or a position.
-fn compared(cond: &Cond, read: &HashMap<Var, Sys>, numbers: &Numbers) -> Vec<Sys> {
+fn compared(cond: &Cond, read: &dyn Fn(Var) -> Option<Sys>, numbers: &Numbers) -> Vec<Sys> {
     match cond {
         Cond::Compare(_, a, b) => {
             let place = one_place([a, b], read);
@@ -212,12 +247,12 @@ fn compared(cond: &Cond, read: &HashMap<Var, Sys>, numbers: &Numbers) -> Vec<Sys
 }
 
 /// True where the rest of a comparison is numbers of the program, and not 0 alone.
-fn has_number(all: [&Expr; 2], read: &HashMap<Var, Sys>, numbers: &Numbers) -> bool {
+fn has_number(all: [&Expr; 2], read: &dyn Fn(Var) -> Option<Sys>, numbers: &Numbers) -> bool {
     let (mut number, mut other) = (false, false);
     for value in all {
         parts(value, &mut |part| match part {
             Expr::Number(value) => number |= *value != 0.0,
-            Expr::Var(var) if read.contains_key(var) => {}
+            Expr::Var(var) if read(*var).is_some() => {}
             Expr::Var(var) => match numbers.0.get(var) {
                 Some(false) => number = true,
                 _ => other = true,
