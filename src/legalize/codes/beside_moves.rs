@@ -235,11 +235,15 @@ fn kinds(nc: &Nc) -> impl Iterator<Item = Auxiliary> + '_ {
     nc.items.iter().filter_map(move |item| kind(item, starts))
 }
 
-/// True for a word that goes where a code goes: the speed of a spindle that starts, the tool of a change, what a
+/// True for what goes where a code goes: the speed of a spindle that starts and how it counts, the tool of a change, what a
 /// builder's code takes.
 pub(in crate::legalize) fn belongs(item: &NcItem, code: &NcItem) -> bool {
     match item {
         NcItem::Word(Role::Speed, _) => matches!(code, NcItem::Op(Op::SpindleCw | Op::SpindleCcw)),
+        // G97 without its S would take the number that G96 left.
+        NcItem::Op(op) if op.group() == Group::SpeedMode => {
+            matches!(code, NcItem::Op(Op::SpindleCw | Op::SpindleCcw) | NcItem::Word(Role::Speed, _))
+        }
         NcItem::Word(Role::Tool, _) => *code == NcItem::Op(Op::ToolChange),
         NcItem::Word(Role::Output, _) => matches!(code, NcItem::Op(Op::OutputOn | Op::OutputOff)),
         NcItem::Word(role, _) if *role == Role::Act || role.is_act_word() => *code == NcItem::Op(Op::Act),
