@@ -93,6 +93,8 @@ pub enum Predicate {
     Tools(Vec<Span>),
     /// The spindle stands at the stops of these blocks.
     Stands(Vec<Span>),
+    /// Where these blocks name a tool length, their word of its axis has a value.
+    LengthAxis(Vec<Span>),
     /// The target has no such operation: it does something near instead, or nothing, and a person accepts that.
     Substitute(Op),
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
@@ -112,7 +114,8 @@ impl Predicate {
             | Self::Pecks(places)
             | Self::Levels(places, _)
             | Self::Tools(places)
-            | Self::Stands(places) => Some(places),
+            | Self::Stands(places)
+            | Self::LengthAxis(places) => Some(places),
             _ => None,
         }
     }
@@ -141,6 +144,7 @@ impl Predicate {
             Self::Levels(..) => "levels",
             Self::Tools(_) => "tools",
             Self::Stands(_) => "spindle_stands",
+            Self::LengthAxis(_) => "length_axis",
             Self::Substitute(_) => "substitute",
             Self::Unseen => "unseen",
         }
@@ -194,7 +198,11 @@ impl Predicate {
             | Self::Pecks(_)
             | Self::Levels(..) => Vec::new(),
             Self::ShortArcs(_) | Self::ArcEnds(_) | Self::WholeSpeeds(_) | Self::Stands(_) => Vec::new(),
-            Self::Tools(_) | Self::Substitute(_) | Self::Unseen | Self::OfMachine(_) => Vec::new(),
+            Self::LengthAxis(_)
+            | Self::Tools(_)
+            | Self::Substitute(_)
+            | Self::Unseen
+            | Self::OfMachine(_) => Vec::new(),
         }
     }
 }

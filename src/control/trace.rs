@@ -99,6 +99,9 @@ pub struct Program {
 /// The letter by which computed speeds that are no whole numbers above 0 stand among the computed codes.
 pub const ODD_SPEED: char = 's';
 
+/// The letter by which blocks that name a tool length and no place of its axis stand there.
+pub const LONE_LENGTH: char = 'l';
+
 /// Something that a run computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Computed<T> {
@@ -284,6 +287,11 @@ impl Trace {
         if speed.fract() != 0.0 || speed <= 0.0 {
             self.computed_code(ODD_SPEED, speed);
         }
+    }
+
+    /// Records that a block names a tool length and no place of its axis.
+    pub fn lone_length(&mut self) {
+        self.computed_code(LONE_LENGTH, 0.0);
     }
 
     /// Records a code whose number was computed.

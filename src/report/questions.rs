@@ -284,6 +284,7 @@ fn danger(finding: &Diagnostic) -> usize {
                 | Predicate::ArcEnds(_)
                 | Predicate::Pecks(_)
                 | Predicate::Levels(..)
+                | Predicate::LengthAxis(_)
                 | Predicate::WholeSpeeds(_),
             ),
             _,

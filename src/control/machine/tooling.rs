@@ -113,8 +113,12 @@ fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     if op.is_some() || renewed {
         let before = machine.frame.length;
         machine.stale_length = false;
+        let lone = command.word(Role::Z).is_none();
+        if lone {
+            trace.lone_length();
+        }
         apply_length(machine, trace);
-        if machine.rules.length_moves && command.word(Role::Z).is_none() {
+        if machine.rules.length_moves && lone {
             let mut to = machine.position;
             to[LENGTH_AXIS] += machine.frame.length - before;
             match machine.motion {

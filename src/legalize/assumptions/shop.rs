@@ -2,19 +2,24 @@
 //!
 //! Nothing is changed. A question is asked where a program shows the difference, and a program is refused where the two
 //! controls are known to differ. Side conditions: a length that is in force already, none that is ended, and one that a
-//! return along Z ended move nothing; a feed of inverse time is the same for all axes. Counter-example: `G43 H1`, `X5.`, which
+//! return along Z ended move nothing; a word of Z that may be vacant must have a value, which is told; a feed of inverse time is
+//! the same for all axes. Counter-example: `G43 H1`, `X5.`, which
 //! crosses the part at another height where the code alone has moved Z.
 
+use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Machine, Question, Side};
+use crate::ir::analysis::Vacancy;
+use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::modal::Ways;
-use crate::ir::{Module, Nc};
+use crate::ir::{Expr, Module, Nc};
 use crate::legalize::features::Features;
 use crate::legalize::moves::mains::facts_from_reset;
 use crate::legalize::moves::rotary_places::{AXES, Places, RotaryPlaces, TURN, Way, degrees};
 use crate::legalize::{Context, Modal, Setting};
 use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// True if the library names tool lengths, or moves rotary axes, between two mills.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -48,10 +53,14 @@ pub(in crate::legalize) fn moves_on_one(
 /// Says what programs rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let facts = facts_from_reset(module, context);
+    let mut copied = BTreeSet::new();
     facts.each(module, &mut |index, stmt, before, _| {
         let Some(nc) = stmt.kind.nc() else { return };
         if names_length(nc) && moves_by_code(nc, before) {
             rests(Question::LengthMoves, index, stmt.site.span, context);
+        }
+        if names_length(nc) && changes_length(nc, before) && nc.word(Role::Z).is_some() {
+            copied.insert((index, stmt.site.span));
         }
         // On some controls what stands beside such a move gets a block of its own.
         let told = context.target.behaviour(Question::LengthMoves).is_some_and(|row| row.value != "unknown");
@@ -63,6 +72,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             context.add_once(index, RADIUS_BY_H, finding.with_help(RADIUS_BY_D));
         }
     });
+    lone_where_vacant(module, &copied, context);
     let turns = |nc: &Nc| AXES.iter().any(|role| nc.word(*role).is_some());
     let mut all = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     if !all.any(|stmt| stmt.kind.nc().is_some_and(turns)) {
@@ -85,6 +95,63 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
+/// Says what blocks rest on whose word of Z may be vacant: those among `placed` change the length and have one.
+fn lone_where_vacant(module: &Module, placed: &BTreeSet<(usize, Span)>, context: &mut Context<'_>) {
+    let question = Question::LengthMoves;
+    let open = |control: &Control| control.behaviour(question).is_some_and(|row| row.value == "unknown");
+    let [of_source, of_target] = [context.source, context.target].map(open);
+    let known = !of_source && !of_target;
+    if placed.is_empty() || known && context.source.is(question) == context.target.is(question) {
+        return;
+    }
+    let (given, none) = (CalledPrograms::of(module).given(module), BTreeSet::new());
+    let summaries = context.summaries(module);
+    let mut found: BTreeMap<(usize, String), Vec<Span>> = BTreeMap::new();
+    for index in placed.iter().map(|(index, _)| *index).collect::<BTreeSet<_>>() {
+        let Some(program) = module.programs.get(index) else { continue };
+        let vacancy = Vacancy::of(program, &summaries, given.get(&index).unwrap_or(&none));
+        for (id, at) in vacancy.absent(&|nc, role| role == Role::Z && names_length(nc)) {
+            let stmt = program.block(id).and_then(|block| block.stmts.get(at));
+            let Some(stmt) = stmt.filter(|stmt| placed.contains(&(index, stmt.site.span))) else { continue };
+            let word = stmt.kind.nc().and_then(|nc| nc.word(Role::Z));
+            let what = word.map(|word| spoken(word, context.source)).unwrap_or_default();
+            let places = found.entry((index, what)).or_default();
+            if !places.contains(&stmt.site.span) {
+                places.push(stmt.site.span);
+            }
+        }
+    }
+    for ((index, word), places) in found {
+        let Some(first) = places.first().copied() else { continue };
+        if of_source {
+            context.rests_on_source(index, first, question);
+        }
+        if of_target {
+            context.rests_on_target(index, first, question);
+        }
+        if !known {
+            continue;
+        }
+        let what = format!(
+            "Z of this block is {word}: where that is vacant, one of the two controls moves Z by the tool length, and the other does not"
+        );
+        let told = Diagnostic::new(Code::Conditional, first, what.clone()).with_help(HAS_VALUE);
+        context.add_once(index, &what, told.assuming(Predicate::LengthAxis(places)));
+    }
+}
+
+/// A word as a person says it.
+fn spoken(word: &Expr, source: &Control) -> String {
+    let name = source.numbered().unwrap_or_default();
+    match word {
+        Expr::Var(var) => format!("{name}{}", var.number),
+        Expr::Negate(inner) => spoken(inner, source),
+        _ => "a variable whose number is computed".into(),
+    }
+}
+
+const HAS_VALUE: &str = "make sure that it has a value in each run";
+
 const RADIUS_BY_H: &str = "the number of a cutter radius is written with D, and the target takes it from H";
 
 const RADIUS_BY_D: &str = "set parameter 5001.2 of the target to 0, and say so in its profile";
@@ -96,9 +163,11 @@ pub(in crate::legalize) fn names_length(nc: &Nc) -> bool {
 
 /// True where a block changes the tool length and has no word of Z.
 pub(in crate::legalize) fn moves_by_code(nc: &Nc, before: &Modal) -> bool {
-    if nc.word(Role::Z).is_some() {
-        return false;
-    }
+    nc.word(Role::Z).is_none() && changes_length(nc, before)
+}
+
+/// True where a block may bring another tool length into force.
+fn changes_length(nc: &Nc, before: &Modal) -> bool {
     let lost = before.length_lost;
     let gone = lost.is_home || lost.by_reference == Ways::Every || lost.by_machine_move == Ways::Every;
     let row = nc.word(Role::LengthOffset).map(|row| row.constant().map(|row| row as u32));

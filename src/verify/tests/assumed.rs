@@ -1,8 +1,9 @@
 //! What a conversion supposes, tried on the runs of both sides: what it excuses, and what not.
 
-use super::{SymbolMap, supposing};
+use super::{SymbolMap, between, supposing};
 use crate::assume::{Assumption, Domain, Numbers, Predicate, Subscripts};
 use crate::canon::{Func, Op};
+use crate::dialect::Control;
 use crate::text::Span;
 use crate::verify::{Outcome, ProgramCertificate, Why};
 
@@ -296,4 +297,25 @@ fn a_program_that_is_run_by_itself_goes_on_at_its_own_block() {
     // Who supposes it sees a jump to another block.
     let elsewhere = source.replace("G0X6.", "N20G0X6.").replace("M99P10", "GOTO20");
     assert_eq!(one(source, &elsewhere, &main).outcome, Outcome::Different);
+}
+
+/// With parameter 5006.6 of 0 a code of the tool length moves Z where the block has no Z, and a vacant word is none.
+#[test]
+fn a_length_whose_place_is_vacant_is_excused_where_that_is_supposed() {
+    let fanuc = "dialect = \"fanuc\"\nunits = \"metric\"\n[parameters]\n5006.6 = 0\n";
+    let controls = [fanuc, "dialect = \"haas\"\nunits = \"metric\"\n"];
+    let controls = controls.map(|text| Control::from_profile(text).unwrap());
+    let source = "O1\nG21G90G17G49G54\nG0X0.Y0.\nG43Z#500H1\nX5.\nM30\n";
+    let found = |target: &str, supposed: &[(usize, Assumption)]| {
+        between(&controls, [source, target], &SymbolMap::default(), supposed).remove(0)
+    };
+    let supposed = [assumption(Predicate::LengthAxis(place(source, "G43Z#500H1")))];
+    assert_eq!(found(source, &[]).outcome, Outcome::Different);
+    let kept = found(source, &supposed);
+    assert_ne!(kept.outcome, Outcome::Different, "{:?}", kept.witness);
+    assert!(kept.assumptions[0].kept.unwrap() > 0 && kept.assumptions[0].broken.unwrap() > 0, "{kept:#?}");
+    // What else differs is seen, before the block and where the word has a value.
+    for other in [source.replace("Y0.", "Y1."), source.replace("Z#500", "Z[#500+1.]")] {
+        assert_eq!(found(&other, &supposed).outcome, Outcome::Different, "{other}");
+    }
 }

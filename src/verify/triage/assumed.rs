@@ -4,11 +4,11 @@
 //! source breaks one is not held against it; what the target alone does otherwise is. Nothing else of a conversion is
 //! known here.
 
-use super::computed::{beside, computed, judged, numbers};
+use super::computed::{beside, computed, judged, never, numbers};
 use super::standing::stands;
 use crate::assume::{Assumption, Predicate};
 use crate::canon::Op;
-use crate::control::trace::{Event, EventKind, ODD_SPEED};
+use crate::control::trace::{Event, EventKind, LONE_LENGTH, ODD_SPEED};
 use crate::control::{End, ProgramRef, Run};
 use crate::text::Span;
 use crate::verify::compare::{Difference, is_move, is_pause, setting};
@@ -161,12 +161,11 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         Predicate::Nesting { counts, most, .. } => nesting(run, *counts, *most),
         Predicate::Alarms(most) => alarm(run, of, *most),
         Predicate::WholeSpeeds(places) => {
-            let odd =
-                computed(&run.computed_codes, of, run, Some(places)).filter(|one| one.what.0 == ODD_SPEED);
-            match judged(odd, |_| false, |(_, speed)| format!("turns at {speed}")) {
-                Held::Untried => Held::Kept,
-                held => held,
-            }
+            never(ODD_SPEED, (places, of), run, |speed| format!("turns at {speed}"))
+        }
+        Predicate::LengthAxis(places) => {
+            let what = "names a tool length where the word of its axis is vacant";
+            never(LONE_LENGTH, (places, of), run, |_| what.into())
         }
         Predicate::ShortArcs(places) => arcs(run, of, places, |sweep, _| {
             (sweep.abs() > 180.0 + 1e-6).then(|| format!("passes an arc of {:.0} degrees", sweep.abs()))
@@ -202,6 +201,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Levels(..)
         | Predicate::Tools(_)
         | Predicate::Stands(_)
+        | Predicate::LengthAxis(_)
         | Predicate::Substitute(_)
         | Predicate::OfMachine(_)
         | Predicate::Unseen

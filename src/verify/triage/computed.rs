@@ -43,6 +43,20 @@ pub(super) fn judged<T>(
     held
 }
 
+/// Whether a run never notes this letter at some blocks; `words` says what it did there.
+pub(super) fn never(
+    letter: char,
+    (places, of): (&[Span], (&Side<'_>, ProgramRef)),
+    run: &Run,
+    words: impl Fn(f64) -> String,
+) -> Held {
+    let noted = computed(&run.computed_codes, of, run, Some(places)).filter(|one| one.what.0 == letter);
+    match judged(noted, |_| false, |(_, number)| words(*number)) {
+        Held::Untried => Held::Kept,
+        held => held,
+    }
+}
+
 /// The other numbers of variables that the blocks of one compute: a run tells which block computed a number, not for which.
 pub(super) fn beside<'a>(all: &'a [Assumption], at: usize) -> Vec<&'a Subscripts> {
     let places = |one: &'a Assumption| match &one.predicate {
