@@ -43,6 +43,13 @@ impl StandingResults {
         self.of(number).is_some() || self.0.iter().any(|run| (run.here..=run.last_here()).contains(&number))
     }
 
+    /// True where the cell `there` of the source and the cell `here` are no one variable, as one of them is such a result.
+    pub fn parts(&self, there: u32, here: u32) -> bool {
+        let goes = self.of(there);
+        goes != Some(here)
+            && (goes.is_some() || self.0.iter().any(|run| (run.here..=run.last_here()).contains(&here)))
+    }
+
     /// The numbers that they have here.
     pub fn here(&self) -> impl Iterator<Item = u32> + '_ {
         self.0.iter().flat_map(|run| run.here..=run.last_here())
@@ -199,6 +206,9 @@ mod tests {
         assert_eq!([134, 150, 185, 180].map(|number| results.of(number)), [None; 4]);
         assert!(results.names(185) && results.names(135) && !results.names(184));
         assert_eq!(results.here().count(), 16);
+        // One that moves, one that is moved to, others, and one with its own place.
+        let parts = [(138, 138), (188, 188), (130, 130), (184, 184), (138, 188)];
+        assert_eq!(parts.map(|(there, here)| results.parts(there, here)), [true, true, false, false, false]);
     }
 
     #[test]

@@ -32,8 +32,9 @@ pub(super) fn compared(source: &Control, target: &Control) -> Vec<Run> {
     bounds.sort_unstable();
     bounds.dedup();
     for (first, end) in bounds.iter().zip(bounds.iter().skip(1)) {
-        // Only variables of the system differ within bounds.
-        let each = source.holds_states(*first) || target.holds_states(*first);
+        // Only variables of the system differ within bounds, and results of programs that stand in the target's machine.
+        let moved = !target.standing_results().is_empty() && *first <= dense;
+        let each = moved || source.holds_states(*first) || target.holds_states(*first);
         let step = if each { 1 } else { end - first };
         let mut number = *first;
         while number < *end {
@@ -83,9 +84,18 @@ fn same(
             let accessible = |c| access(their).contains(c);
             Some(here == there && access(our).chars().all(accessible))
         }
-        _ => Some(here == there && !target.is_numbered_reserved(number)),
+        _ => Some(here == there && !target.is_numbered_reserved(number) && !is_moved(source, target, number)),
     };
     (alike, here.is_some())
+}
+
+/// True for a variable whose number is another one on the target, or that of another variable there: results of programs that
+/// stand in its machine.
+pub(super) fn is_moved(source: &Control, target: &Control, number: u32) -> bool {
+    let cell = |control: &Control| control.numbered().map_or(number, |name| control.cell(name, number));
+    let is_common =
+        source.numbered_class(cell(source)).is_some_and(|row| row.class != "local" && row.class != "letter");
+    is_common && target.standing_results().parts(cell(source), cell(target))
 }
 
 /// True for state that the source may set to a larger number than the target takes.

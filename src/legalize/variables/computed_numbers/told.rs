@@ -1,5 +1,6 @@
 //! What is told of computed numbers of variables.
 
+use super::alike::is_moved;
 use super::{Finding, named};
 use crate::diag::Code;
 use crate::dialect::Control;
@@ -17,6 +18,11 @@ impl Finding {
         if context.target.is_reserved(&spelt, number) {
             return "'reserved' of the target's profile keeps from programs: take it out of that list if nothing on the machine \
                     uses it, or give the programs other numbers"
+                .to_owned();
+        }
+        if is_moved(context.source, context.target, number) {
+            return "is a result of a program that stands in the target's machine, or the number of one there, as 'standing_results' of its \
+                    profile says: name these variables by their numbers, or take them out of 'standing_results'"
                 .to_owned();
         }
         format!("is another variable on {}", context.target.dialect().title)
