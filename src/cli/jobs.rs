@@ -9,7 +9,7 @@ use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
     Conversion, Files, Folder, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, Spots,
-    another_library, certificate_of, plan, real_place, same_file, slashed, withheld_of,
+    another_library, certificate_of, plan, real_place, same_file, slashed, withheld_of, without_builders,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -310,11 +310,20 @@ fn hold(folder: &Path) -> Result<Held, u8> {
 }
 
 fn planned(
-    (inputs, named, left_out): (Vec<Input>, Vec<bool>, Vec<LeftOut>),
+    (inputs, named, mut left_out): (Vec<Input>, Vec<bool>, Vec<LeftOut>),
     source: Control,
     target: Control,
     out: Option<(&Path, Held)>,
 ) -> Result<Job, u8> {
+    let without = without_builders(inputs, &source);
+    without.told.iter().for_each(remark);
+    left_out.extend(without.left_out);
+    let kept =
+        without.inputs.into_iter().map(|(at, input)| (input, named.get(at).is_none_or(|named| *named)));
+    let (inputs, named): (Vec<Input>, Vec<bool>) = kept.unzip();
+    if inputs.is_empty() {
+        return Err(complain("there is no other program to convert"));
+    }
     let (source, target, taken) = kinds(&inputs, (source, target))?;
     let fresh = Lock::new(source.name(), target.name());
     let (out, lock) = match out {

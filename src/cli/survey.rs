@@ -4,7 +4,7 @@ use super::WELL;
 use super::common::{self, control, controls, doubt, own_profile, read_all, source_of};
 use super::streams::{self, complain, complain_lines, remark};
 use crate::dialect::{Machine, Side};
-use crate::library::{Files, WhyNot, of_library, settled, write_file};
+use crate::library::{Files, Input, WhyNot, of_library, settled, without_builders, write_file};
 use crate::survey::{self, Survey};
 use std::path::{Path, PathBuf};
 
@@ -76,6 +76,9 @@ fn work(arguments: &Arguments) -> Result<(), u8> {
             (source, None, taken)
         }
     };
+    let without = without_builders(inputs, &source);
+    without.told.iter().for_each(remark);
+    let inputs: Vec<Input> = without.inputs.into_iter().map(|(_, input)| input).collect();
     let programs = Files::of(inputs.iter().map(|input| input.path.as_path()));
     if let Some(place) = places.iter().find(|place| programs.holds(place)) {
         return Err(complain(format!("{} is a program and would be overwritten", place.display())));

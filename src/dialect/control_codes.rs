@@ -246,10 +246,21 @@ impl Control {
         aliases.find(|(own, called, _)| *own == letter && *called == number).map(|(_, _, alias)| *alias)
     }
 
+    /// The codes that call programs: letter, number, and what is called.
+    pub fn aliased(&self) -> impl Iterator<Item = (char, f64, Alias)> + '_ {
+        self.aliases.iter().copied()
+    }
+
     /// What the profile says of a builder's code.
     pub fn site_code(&self, letter: char, number: f64) -> Option<&SiteCode> {
         let wanted = CodeHead::new(letter, number)?;
         self.profile.site.iter().find(|site| site.head() == Some(wanted))
+    }
+
+    /// The programs of the machine's builder that are not converted, as the code of another machine does what they do: each with the
+    /// code that calls it.
+    pub fn builders_programs(&self) -> impl Iterator<Item = (u32, &str)> {
+        self.profile.site.iter().filter_map(|site| Some((site.builders_program()?, site.code.as_str())))
     }
 
     /// What the profile says of a builder's code by the name that it has.
@@ -275,7 +286,7 @@ pub(super) fn aliases(
     profile: &Profile,
 ) -> Vec<(char, f64, Alias)> {
     let calls = |site: &SiteCode| {
-        let (head, program) = (site.head()?, site.calls?);
+        let (head, program) = (site.head()?, site.calls.filter(|_| site.target.is_none())?);
         Some((head.letter, head.number(), Alias { program, arguments: site.arguments, modal: false }))
     };
     let mut aliases: Vec<_> = profile.site.iter().filter_map(calls).collect();
@@ -284,6 +295,14 @@ pub(super) fn aliases(
         for (setting, program) in (first..=row.through.unwrap_or(first)).zip(rule.program..) {
             let value = settings.get(&format!("{stem}{setting}")).and_then(|value| value.parse::<f64>().ok());
             let Some(value) = value.filter(|value| *value != 0.0) else { continue };
+            // A program of the builder that the code of another machine stands for.
+            let is_builders = |site: &SiteCode| {
+                let is_it = |head: CodeHead| head.letter == rule.letter && head.number() == value.abs();
+                site.builders_program() == Some(program) && site.head().is_some_and(is_it)
+            };
+            if profile.site.iter().any(is_builders) {
+                continue;
+            }
             let alias = Alias { program, arguments: rule.arguments, modal: value < 0.0 };
             aliases.push((rule.letter, value.abs(), alias));
         }

@@ -37,7 +37,8 @@ pub struct SiteCode {
     /// What becomes of it on a machine that has no code of its name.
     #[serde(default, rename = "do")]
     pub without: Option<Without>,
-    /// The program that it calls.
+    /// The program that it calls. Beside `target` that program is the builder's: it is not converted, and the code of the other
+    /// machine does what it does.
     #[serde(default)]
     pub calls: Option<u32>,
     /// True where the other words of its block are arguments of that program, as with `G65`.
@@ -83,6 +84,11 @@ impl SiteCode {
     /// What it does, in words, if the profile says it.
     fn said(&self) -> Option<&str> {
         Some(self.text.trim()).filter(|text| !text.is_empty())
+    }
+
+    /// The program of the builder that it calls, where the code of another machine does what that does.
+    pub fn builders_program(&self) -> Option<u32> {
+        self.calls.filter(|_| self.target.is_some())
     }
 
     /// The code for people: `M14 (chuck air on)`.

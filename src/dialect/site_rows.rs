@@ -42,9 +42,10 @@ impl Overlay {
             self.site_variables(&site, dialect);
             if site.calls.is_some() {
                 self.check_call(&site, dialect);
-                dialect.codes.retain(|old| old.head() != Some(head));
-            } else {
-                lay(dialect, row);
+            }
+            match site.calls {
+                Some(_) if site.target.is_none() => dialect.codes.retain(|old| old.head() != Some(head)),
+                _ => lay(dialect, row),
             }
         }
     }
@@ -84,7 +85,7 @@ impl Overlay {
         self.check_with(site);
         self.check_answers(site);
         self.check_words(site, row);
-        if site.op.is_none() && site.calls.is_none() {
+        if site.op.is_none() && (site.calls.is_none() || site.target.is_some()) {
             self.check_beside(site, row, dialect);
         }
         if site.op.is_none() {
@@ -139,9 +140,14 @@ impl Overlay {
             let help = "name the code of the other machine, with the words that it always has: target = \"M88\", \"M19 P90\", \"M3 M8\"";
             self.site_fault(site, format!("'{target}' is not a code"), help);
         }
-        if site.calls.is_some() && (site.op.is_some() || named) {
-            let help = "'calls' says what it does: leave out 'op', 'name', 'target' and 'do'";
+        let other = site.name.is_some() || site.without.is_some();
+        if site.calls.is_some() && (site.op.is_some() || other) {
+            let help = "'calls' says what it does: leave out 'op', 'name' and 'do'";
             self.site_fault(site, format!("{code} has two meanings"), help);
+        }
+        if site.arguments && site.builders_program().is_some() {
+            let help = "leave 'arguments' out: the program is not converted, and words = { P = \"P\" } says what the target's code takes";
+            self.site_fault(site, format!("{code} has 'arguments' and 'target'"), help);
         }
         if site.arguments && site.calls.is_none() {
             let help = "write calls = 9010 beside it: the program that gets them";
@@ -155,7 +161,7 @@ impl Overlay {
             let message =
                 format!("{} calls a program, which no code of a builder does on this control", site.code);
             self.site_fault(site, message, "leave 'calls' out, and say by 'name' or 'do' what it does");
-        } else if !site.words.is_empty() {
+        } else if !site.words.is_empty() && site.target.is_none() {
             let help = "leave 'words' out: the letters of the block are arguments, or none of its business";
             self.site_fault(site, format!("{} has words and calls a program", site.code), help);
         }

@@ -6,6 +6,7 @@
 
 mod accepted;
 mod broken;
+mod builders;
 mod callees;
 mod callers_modes;
 mod chunks;
@@ -45,6 +46,7 @@ pub use accepted::{
     Answered, Answers, Asked, Chosen, Edit, Entry, Fit, OfPrograms, Question, Scopes, Signer, acceptable,
     answered, asks_any, edited, edits, questions,
 };
+pub use builders::{WithoutBuilders, without_builders};
 pub use callees::linked_files;
 pub use code_system::{by_other_systems, is_of_another};
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert, outcome};

@@ -39,6 +39,8 @@ pub enum WhyNot {
     Own,
     /// The project file says that it is not of the library.
     Excluded,
+    /// Its only program is the builder's, and the code of the target does what that does.
+    Builders,
 }
 
 impl WhyNot {
@@ -56,6 +58,7 @@ impl WhyNot {
             Self::Written => "written by macroglot",
             Self::Own => "shared, where the folder has its own",
             Self::Excluded => "not of this library by macroglot.toml",
+            Self::Builders => "with a program of the builder by the source's profile",
         }
     }
 }

@@ -16,6 +16,7 @@ mod kept;
 mod keys;
 mod machine;
 mod needs;
+mod own_calls;
 mod programs;
 mod shape;
 mod signals;
@@ -68,6 +69,8 @@ pub struct Survey<'a> {
     pub shape: Shape,
     /// The codes of which a profile must say what the machine's builder made of them; what frees most programs is first.
     pub codes: Vec<AskedCode>,
+    /// Codes that call a program of the builder by a parameter, and that the target has itself.
+    own_calls: Vec<own_calls::OwnCall>,
     /// What its programs take from the machine when they begin, and the profile does not say.
     pub start: Vec<AskedStart>,
     /// What the target must begin in too, and its profile does not say: of programs at whose heads no code can be written.
@@ -148,6 +151,8 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         target.map_or_else(Vec::new, |target| digits::asked(&places, [source, target], &library.module));
     let far_places = target.map_or_else(Vec::new, |target| far_places::named(target, &library.module));
     let speeds = target.map_or_else(Vec::new, |target| speeds::asked(&places, target, &library.module));
+    let own_calls = target
+        .map_or_else(Vec::new, |target| own_calls::found(inputs, &places, [source, target], &library.module));
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),
@@ -183,6 +188,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         is_open_lathe: [false; 2],
         shape,
         codes,
+        own_calls,
         start,
         start_of_target,
         settings,

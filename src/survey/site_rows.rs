@@ -11,7 +11,7 @@ pub(super) const SECTION: &str = "codes";
 
 /// A line to fill in for each code. With a target one answer is enough: its code, in the source's profile alone.
 pub(super) fn lines(survey: &Survey<'_>) -> String {
-    let mut text = String::new();
+    let mut text = super::own_calls::lines(&survey.own_calls);
     if survey.codes.is_empty() {
         return text;
     }

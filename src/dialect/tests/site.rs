@@ -30,6 +30,9 @@ fn rows_that_contradict_themselves_or_the_table_are_faults() {
     fanuc("do='nothing'", "omit");
     fanuc("arguments=true", "M14 has arguments and calls no program");
     fanuc("calls=9010,name='air'", "M14 has two meanings");
+    fanuc("calls=9010,target='M88',arguments=true", "M14 has 'arguments' and 'target'");
+    fanuc("calls=9010,target='M88',do='omit'", "M14 has two meanings");
+    refused("fanuc", "{code='G91',calls=9010,target='M88'}", "G91 has a meaning of its own on this control");
     fanuc("calls=9010,words={P='level'}", "M14 has words and calls a program");
     fanuc("name='air',words={PP='level'}", "'PP' is not the letter of a word");
     fanuc("name='air',words={P=''}", "P of M14 has no name");
