@@ -133,7 +133,8 @@ fn reads(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-fn reads_word(e: &Expr) -> bool {
+/// True if the last tool word is read in an expression, or may be.
+pub(in crate::legalize) fn reads_word(e: &Expr) -> bool {
     let mut found = false;
     let letter = f64::from(ADDRESS_T);
     e.walk(&mut |e| {

@@ -150,8 +150,12 @@ pub(super) const SOURCE: &[Pass] = &[
         .when(top_tool::concerns),
     Pass::reports("missing-axes", "refuses words of axes that the target does not have", missing_axes::run)
         .when(missing_axes::concerns),
-    Pass::reports("bare-changes", "tells of tool changes for which no tool was named", bare_changes::run)
-        .when(bare_changes::concerns),
+    Pass::edits(
+        "bare-changes",
+        "tool changes for which no tool was named name it, or are told",
+        bare_changes::run,
+    )
+    .when(bare_changes::concerns),
     Pass::reports("unchanged-tools", "tells of tools that no program changes to", unchanged_tools::run)
         .when(unchanged_tools::concerns),
     Pass::reports("changes", "reports moves after tool changes that may leave Z where it was", changes::run)
