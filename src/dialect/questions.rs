@@ -297,6 +297,8 @@ questions! {
     MStopActs "m.stop.acts" WHEN, "when a code that stops spindle or coolant acts, beside a move";
     MChangeActs "m.change.acts" WHEN, "when a tool change acts, beside a move";
     MOtherActs "m.other.acts" WHEN, "when any other M code acts, beside a move";
+    MOtherBesideTurret "m.other.beside.turret" OneOf(&["before", "after", "unknown"]), "whether a builder's code that acts with the start of the move, in a block that turns the turret too, acts before the turret turns or \
+                                                                                     when it has turned", if "op:threading";
     SActs "s.acts" WHEN, "when a new spindle speed acts, beside a move";
     CoolantOffThrough "coolant.off.through" YES, "the code that ends coolant ends the coolant through the spindle too", if "said";
     StopEndsSpindle "stop.ends.spindle" YES, "a program stop stops the spindle, and the program has to start it again";

@@ -19,14 +19,25 @@ impl Before {
     }
 }
 
-/// Does what acts with the start of the block's move.
-pub(super) fn with_start(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    act(machine, command, false, trace);
+/// Does what acts with the start of the block's move, of some kinds.
+pub(super) fn with_start(
+    machine: &mut Machine,
+    command: &Command,
+    of: impl Fn(Auxiliary) -> bool,
+    trace: &mut Trace,
+) {
+    act(machine, command, (false, of), trace);
+}
+
+/// True for a block with a builder's code that acts with the start of its move.
+pub(super) fn starts_builders(machine: &Machine, command: &Command) -> bool {
+    kinds(machine, command).any(|kind| kind == Auxiliary::Other)
+        && !acts_late(machine, command, Auxiliary::Other)
 }
 
 /// Does what acts when the block's move is done.
 pub(super) fn behind(machine: &mut Machine, command: &Command, before: &Before, trace: &mut Trace) {
-    act(machine, command, true, trace);
+    act(machine, command, (true, |_| true), trace);
     doubt(machine, command, before, trace);
     loosen(machine, before, trace);
 }
@@ -79,12 +90,17 @@ fn only_moves(command: &Command) -> bool {
     is_plain && command.ops.iter().all(|op| op.auxiliary().is_none())
 }
 
-fn act(machine: &mut Machine, command: &Command, late: bool, trace: &mut Trace) {
+fn act(
+    machine: &mut Machine,
+    command: &Command,
+    (late, of): (bool, impl Fn(Auxiliary) -> bool),
+    trace: &mut Trace,
+) {
     if only_moves(command) {
         return;
     }
     for kind in kinds(machine, command) {
-        if acts_late(machine, command, kind) != late {
+        if acts_late(machine, command, kind) != late || !of(kind) {
             continue;
         }
         match kind {

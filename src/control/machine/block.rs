@@ -4,7 +4,7 @@
 //! then the rest of them, then a stop.
 
 use super::{Command, Machine, auxiliary, lathe, motion, offsets, rigid, state, tooling};
-use crate::canon::{Group, Op, Pause, Role};
+use crate::canon::{Auxiliary, Group, Op, Pause, Role};
 use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, Side, Trace};
 
@@ -20,14 +20,15 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     rigid::enter(machine, command)?;
     state::modes(machine, command, trace);
     let before = auxiliary::Before::of(machine, trace);
-    // What acts with the start of a move acts before a turret that turns beside it (T5).
+    // What acts with the start of a move acts before a turret that turns beside it, but for some codes of the builder (T5).
     let waits = machine.rules.lathe && command.word(Role::Turret).is_some() && goes_somewhere(command);
+    let after = waits && lathe::turret::is_awaited(machine, command, trace);
     if waits {
-        auxiliary::with_start(machine, command, trace);
+        auxiliary::with_start(machine, command, |kind| !after || kind != Auxiliary::Other, trace);
     }
     tooling::tool(machine, command, trace);
-    if !waits {
-        auxiliary::with_start(machine, command, trace);
+    if !waits || after {
+        auxiliary::with_start(machine, command, |kind| !waits || kind == Auxiliary::Other, trace);
     }
     let compensated = machine.side != Side::Off;
     tooling::compensation(machine, command, trace);

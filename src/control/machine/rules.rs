@@ -96,6 +96,8 @@ pub struct Rules {
     pub speed_kept: Fact<bool>,
     /// A block without an axis makes the turning, threading or facing pass in force once more.
     pub pass_alone: Fact<bool>,
+    /// A builder's code beside T and a move acts when the turret has turned.
+    pub turret_first: Fact<bool>,
     /// The depth of a roughing pass does nothing beside the finishing of a contour.
     pub finish_depth: Fact<()>,
     /// An allowance beside the finishing of a contour does nothing.
@@ -255,6 +257,7 @@ impl Rules {
             through_stays: answers::are(control, Question::CoolantOffThrough, "false"),
             places: Arc::new(Places::of(control)),
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
+            turret_first: fact(control, Question::MOtherBesideTurret, word("after", "before"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
             finish_allowance: fact(
                 control,

@@ -4,14 +4,17 @@
 //! the move, as the source does it, wherever no source says that the target does the same in one block. Beside a rapid
 //! move or a wait nobody could tell in the work when spindle or coolant act: where the source does not say, they stay.
 //! Where it matters and no source says it, the code goes where the trade has it, and the fact is named.
-//! A T word of a lathe stays in the block of its move: whether the turret turns before the move, no source says (docs/lathe.md T5).
+//! A T word of a lathe stays in the block of its move: whether the turret turns before the move, no source says (docs/lathe.md T5). Where a
+//! builder's code acts when the turret has turned, T goes before the code, in a block of its own.
 //! The blocks of a lathe's contour that the cycle counts on (the first, the last, a corner) stay whole where the target is taken to do the
 //! same, and the fact is named. So do the blocks of single passes (G90, G92, G94), which M, S or T alone may make once more.
 //! Counter-example: `G1 X5. M3 S1000`, which cuts with the spindle turning on one control, and then starts it on another.
 
+mod turret;
+
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Question, turret_parts};
+use crate::dialect::Question;
 use crate::ir::{self, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::codes::pauses::{AFTER_CALL, pause_of};
 use crate::legalize::features::Features;
@@ -147,15 +150,12 @@ fn split(
     for fact in block.split(context) {
         context.rests_on_source(index, stmt.site.span, fact);
     }
-    let Block { early, late, theirs, .. } = block;
+    let Block { mut early, late, theirs, .. } = block;
     for fact in theirs {
         context.rests_on_target(index, stmt.site.span, fact);
     }
     let changed = !early.is_empty() || !late.is_empty();
-    if before_turret(&early, &stmt) {
-        let finding = Diagnostic::new(Code::Conditional, stmt.site.span, BEFORE_TURRET);
-        context.add_once(index, BEFORE_TURRET, finding.with_help(TURRET_HELP));
-    }
+    turret::ordered(&mut early, &mut stmt, index, context);
     if !late.is_empty() && before.may_call() {
         context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
     }
@@ -174,19 +174,6 @@ fn split(
     out.extend(behind.into_iter().map(|(items, site)| Stmt { kind: StmtKind::Nc(Nc { items }), site }));
     changed
 }
-
-/// True where a builder's code goes before a block that turns the turret.
-fn before_turret(early: &[Vec<NcItem>], stmt: &Stmt) -> bool {
-    let word = stmt.kind.nc().and_then(|nc| nc.word(Role::Turret));
-    let turns = word.is_some_and(|word| word.constant().is_none_or(|word| turret_parts(word).0 != 0.0));
-    let builders = |item: &NcItem| kind(item, false) == Some(Auxiliary::Other);
-    turns && early.iter().flatten().any(builders)
-}
-
-const BEFORE_TURRET: &str = "a code of the builder stands beside a move and a T word that turns the turret, and goes before them: if it starts a live tool, \
-                             the one of the old station turns while the turret turns";
-const TURRET_HELP: &str =
-    "write T into a block of its own before this one; then the turret has turned when the code acts";
 
 /// What a block moves.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -282,7 +269,10 @@ impl Block<'_> {
             // A tool in the changer does not turn: what starts waits for the change.
             let waits = changes && !kind.waits() && context.source.acts(Auxiliary::Change).late;
             let late = here.late || waits;
-            let same = there.known && there.late == late;
+            // In one block the code acts before the turret turns or after, as each machine has it.
+            let turns = kind == Auxiliary::Other && !late && turret::turns(self.nc);
+            let alike = !turns || turret::answer(context.source) == turret::answer(context.target);
+            let same = there.known && there.late == late && alike;
             let whole = if late { self.whole.tail } else { self.whole.head };
             if whole && !waits && there.late == late {
                 self.theirs.extend(tells.then_some(there.question));

@@ -3,7 +3,7 @@
 use super::time::turns_now;
 use super::{Lathe, Offset};
 use crate::canon::{Op, Role, Sys};
-use crate::control::machine::{Command, Machine};
+use crate::control::machine::{Command, Machine, auxiliary};
 use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, FeedMode, Plane, Side, Trace};
 use crate::dialect::{Control, turret_parts};
@@ -30,6 +30,13 @@ pub fn index(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let before = machine.lathe.offset;
     machine.lathe.offset = offset;
     machine.apply_offset(before, trace);
+}
+
+/// True where a builder's code of the block acts when the turret has turned, and not before it does (T5).
+pub fn is_awaited(machine: &Machine, command: &Command, trace: &mut Trace) -> bool {
+    let station = command.number(Role::Turret).map_or(0.0, |word| turret_parts(f64::from(word)).0);
+    let turns = station != 0.0 && station != machine.tool;
+    turns && auxiliary::starts_builders(machine, command) && machine.rules.turret_first.ask(trace)
 }
 
 /// Takes the side of the nose: radius and tip are those of the offset in force.
