@@ -284,6 +284,8 @@ questions! {
     CycleBlockRuns "cycle.block.runs" YES, "a drilling cycle's own block drills at the position in it", if "said";
     PocketEnds "pocket.ends" OneOf(&["depth", "start", "unknown"]), "where the tool is after a round pocket: at its depth, or back at the height where it stood before", if "op:pocket.circle.cw";
     CyclePeckNeeded "cycle.peck.needed" YES, "a peck cycle that is told no depth of its pecks, or 0, stops with an alarm", if "said";
+    CycleRMissing "cycle.r.missing" OneOf(&["here", "zero", "alarm", "unknown"]), "the retract plane of a drilling cycle that is told none (R): where the tool is when the cycle begins, 0, or it \
+                                                                                is an alarm", if "said";
     CyclePeckClearance "cycle.peck.clearance" NUMBER, "how far over the last depth a peck drill begins its next step, millimetres", if "said";
     CycleR0Kept "cycle.r0.kept" YES, "a drilling cycle takes its retract plane from the variable that holds it";
     RotationRunsCycle "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place", if "op:rotate.on";

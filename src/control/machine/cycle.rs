@@ -1,6 +1,7 @@
 //! Drilling cycles: their planes, their repeats, where they run.
 
 use super::command::axis;
+use super::rules::NoPlane;
 use super::{Command, Machine, expand, inverse, lathe};
 use crate::canon::{Op, Role};
 use crate::control::entry::Drilling;
@@ -169,6 +170,13 @@ pub(super) fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop>
     }
     if machine.frame.scale.is_some() {
         machine.rules.scale_reaches_cycle.ask(trace);
+    }
+    if cycle.r.is_none() && !machine.rules.lathe {
+        match machine.rules.no_plane.ask(trace) {
+            NoPlane::Here => {}
+            NoPlane::Zero => cycle.r = Some((0.0, machine.incremental)),
+            NoPlane::Alarm => return Err(Stop::unnamed("a drilling cycle without its retract plane")),
+        }
     }
     let frozen = machine.rules.planes_frozen.peek();
     if cycle.mixes(machine.incremental) {

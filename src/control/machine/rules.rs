@@ -9,7 +9,7 @@ use super::rigid::Taps;
 use crate::canon::{Act, Auxiliary, Op, Pause, Role, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, Question};
-pub use answers::{BareChange, LengthAfter, NoCentre, RadiusTable};
+pub use answers::{BareChange, LengthAfter, NoCentre, NoPlane, RadiusTable};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -129,6 +129,8 @@ pub struct Rules {
     pub pocket_ends_deep: Fact<bool>,
     /// A peck cycle without the depth of its pecks stops with an alarm.
     pub pecks_need_depth: bool,
+    /// The retract plane of a drilling cycle that is told none.
+    pub no_plane: Fact<NoPlane>,
     /// The time of a wait is that of the cycle in force too.
     pub dwell_is_of_cycle: Fact<bool>,
     /// Words of a cycle are kept in a block that drills nothing.
@@ -259,12 +261,7 @@ impl Rules {
             pass_alone: fact(control, Question::PassAlone, word("repeats", "nothing"), false),
             turret_first: fact(control, Question::MOtherBesideTurret, word("after", "before"), false),
             finish_depth: fact(control, Question::FinishDepth, only("ignored"), ()),
-            finish_allowance: fact(
-                control,
-                Question::FinishAllowance,
-                |value| (value == "ignored").then_some(true),
-                false,
-            ),
+            finish_allowance: answers::ignored(control, Question::FinishAllowance),
             hole_clamp: control.hole_clamp(),
             hole_clamp_acts: fact(control, Question::HoleClamp, only("plane"), ()),
             pass_cleared: fact(control, Question::PassData, word("cleared", "kept"), false),
@@ -305,6 +302,7 @@ impl Rules {
             radius_table: fact(control, Question::RadiusOffsetTable, table, RadiusTable::Diameter),
             tool_word_changes: fact(control, Question::ToolChangeWord, |value| Some(value == "t"), false),
             tool_word_again: answers::tool_again(control),
+            no_plane: answers::no_plane(control),
             bare_change: answers::bare_change(control),
             tool_word_selects_length: yes(control, Question::ToolWordSelectsLength, false),
             cutter_takes_tool: yes(control, Question::RadiusOffsetActiveTool, false),

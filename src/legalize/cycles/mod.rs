@@ -19,6 +19,7 @@ pub(in crate::legalize) mod inherited_words;
 pub(in crate::legalize) mod leadless_taps;
 pub(in crate::legalize) mod lone_words;
 pub(in crate::legalize) mod missing_pecks;
+pub(in crate::legalize) mod missing_planes;
 mod needless_waits;
 mod peck_clear;
 pub(in crate::legalize) mod plane_variables;

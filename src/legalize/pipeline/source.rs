@@ -10,8 +10,8 @@ use crate::legalize::assumptions::{
 };
 use crate::legalize::calls::parts;
 use crate::legalize::cycles::{
-    cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, plane_variables, spindle_starts,
-    stored_places,
+    cycle_arcs, cycle_waits, drill_planes, inherited_words, lone_words, missing_planes, plane_variables,
+    spindle_starts, stored_places,
 };
 use crate::legalize::features::Feature;
 use crate::legalize::lathe::{contour_numbers, other_kind};
@@ -112,6 +112,12 @@ pub(super) const SOURCE: &[Pass] = &[
     .when(cycle_waits::concerns),
     Pass::edits("lone-words", "words of a cycle that the source ignores go", lone_words::run)
         .when(lone_words::concerns),
+    Pass::reports(
+        "missing-planes",
+        "tells of drilling cycles that are told no retract plane",
+        missing_planes::run,
+    )
+    .when(missing_planes::concerns),
     Pass::reports(
         "missing-length",
         "tells of tool lengths whose number no block ever named",

@@ -32,6 +32,29 @@ pub enum NoCentre {
     Straight,
 }
 
+/// The retract plane of a drilling cycle that is told none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPlane {
+    /// Where the tool is when the cycle begins.
+    Here,
+    /// 0.
+    Zero,
+    /// It is an alarm.
+    Alarm,
+}
+
+/// The retract plane of a drilling cycle that is told none; a silent table is like most.
+pub(super) fn no_plane(control: &Control) -> Fact<NoPlane> {
+    let read = |value: &str| match value {
+        "here" => Some(NoPlane::Here),
+        "zero" => Some(NoPlane::Zero),
+        "alarm" => Some(NoPlane::Alarm),
+        _ => None,
+    };
+    let question = Question::CycleRMissing;
+    fact(control, question, read, NoPlane::Here).or_silent(control, question)
+}
+
 /// What a tool change does where no tool was named since the last one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BareChange {
@@ -64,6 +87,11 @@ pub(super) fn tool_again(control: &Control) -> Fact<bool> {
     };
     let question = Question::ToolWordAgain;
     fact(control, question, read, true).or_silent(control, question)
+}
+
+/// Whether something is known to be ignored.
+pub(super) fn ignored(control: &Control, question: Question) -> Fact<bool> {
+    fact(control, question, |value| (value == "ignored").then_some(true), false)
 }
 
 /// True for a control that answers a question so.
