@@ -49,7 +49,12 @@ pub(super) fn may_call(
             if source.setting(&format!("{stem}.{parameter}")).is_some() || !seen.insert(program) {
                 continue;
             }
-            let head = inputs.get(found.file).map(|input| head_of(input, program)).unwrap_or_default();
+            let (head, body) =
+                inputs.get(found.file).map(|input| head_and_body(input, program)).unwrap_or_default();
+            // Inside the program that a code calls it would be called again.
+            if has_word(&body, letter, number) {
+                continue;
+            }
             let stated = stated(&head, parameter);
             if stated.is_some_and(|stated| stated != number) {
                 continue;
@@ -80,7 +85,9 @@ pub(super) fn answer(calls: &[MayCall], code: &str) -> (Option<String>, String) 
     let parameters =
         calls.iter().map(|call| format!("O{} if parameter {} is {number}", call.program, call.parameter));
     let parameters = parameters.collect::<Vec<_>>().join(", or ");
-    let answer = numbers(first.arguments).filter(|_| is_call(calls, code));
+    // Two that may be it are no answer.
+    let single = calls.iter().filter(|call| call.arguments == first.arguments).count() == 1;
+    let answer = numbers(first.arguments).filter(|_| single && is_call(calls, code));
     let others =
         [true, false].into_iter().filter(|arguments| answer.is_none() || *arguments != first.arguments);
     let others: String = others.filter_map(numbers).map(|other| format!("; or {other}")).collect();
@@ -182,12 +189,41 @@ fn number_of(name: &str) -> Option<u32> {
     digits.get(..end)?.parse().ok()
 }
 
-/// The first lines of a program, in capitals.
-fn head_of(input: &Input, program: u32) -> String {
+/// The comments in the first lines of a program, and what it has besides comments, in capitals.
+fn head_and_body(input: &Input, program: u32) -> (String, String) {
     let text = String::from_utf8_lossy(&input.bytes).to_ascii_uppercase();
-    let is_head = |line: &&str| line.starts_with(['O', ':', '<']) && number_of(line) == Some(program);
-    let lines = text.lines().skip_while(|line| !is_head(line));
-    lines.take(HEAD).flat_map(|line| [line, "\n"]).collect()
+    let starts = |line: &str| line.starts_with(['O', ':', '<']) && number_of(line).is_some();
+    let is_head = |line: &&str| starts(line) && number_of(line) == Some(program);
+    let lines = text.lines().skip_while(|line| !is_head(line)).enumerate();
+    let (mut head, mut body) = (String::new(), String::new());
+    for (at, line) in lines.take_while(|(at, line)| *at == 0 || !starts(line)) {
+        let mut open = false;
+        for sign in line.chars() {
+            match sign {
+                '(' => open = true,
+                ')' => {
+                    open = false;
+                    head.push(' ');
+                }
+                _ if !open => body.push(sign),
+                _ if at < HEAD => head.push(sign),
+                _ => {}
+            }
+        }
+        head.push('\n');
+        body.push('\n');
+    }
+    (head, body)
+}
+
+/// True if a program has the word of a letter with this number.
+fn has_word(body: &str, letter: char, number: u32) -> bool {
+    body.match_indices(letter).any(|(at, _)| {
+        let rest = body.get(at + letter.len_utf8()..).unwrap_or_default().trim_start_matches([' ', '\t']);
+        let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
+        !rest.get(end..).unwrap_or_default().starts_with('.')
+            && rest.get(..end).and_then(|digits| digits.parse().ok()) == Some(number)
+    })
 }
 
 /// True if a text has a word that no further digit follows.
@@ -211,4 +247,46 @@ fn stated(text: &str, parameter: u32) -> Option<u32> {
         let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
         rest.get(..end)?.parse().ok()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::dialect::{Control, Side};
+    use crate::library::Input;
+    use crate::survey::{filled, survey};
+
+    fn asked(files: &[(&str, &str)]) -> String {
+        let input = |(name, text): &(&str, &str)| Input {
+            path: (*name).into(),
+            name: (*name).into(),
+            bytes: text.as_bytes().into(),
+        };
+        let inputs: Vec<Input> = files.iter().map(input).collect();
+        let profile = "dialect = \"fanuc\"\nmachine = \"mill\"\n";
+        let source = Control::from_profile(profile).unwrap();
+        let target = Control::from_profile("dialect = \"haas\"\nmachine = \"mill\"\n").unwrap();
+        filled(&survey(&inputs, &source, Some(&target)), Side::Source, Some(profile)).unwrap()
+    }
+
+    #[test]
+    fn a_program_that_has_the_code_itself_is_not_called_by_it() {
+        let text = asked(&[("O9001.nc", "O9001(TOOL CHANGE)\nM205\nG91G30Z0\nM 201\nM99\n")]);
+        assert!(text.contains("#? M201 = { target = ") && !text.contains("calls ="), "{text}");
+    }
+
+    #[test]
+    fn two_programs_that_may_be_it_are_no_answer() {
+        let main = ("a.nc", "O1\nG21 G90\nM144\nG0 X1.\nM30\n");
+        let one = ("b.nc", "O9002(M144)\nG4 P1.\nM99\n");
+        let other = ("c.nc", "O9005(NOT M144)\nG4 P1.\nM99\n");
+        assert!(asked(&[main, one]).contains("#? M144 = { calls = 9002 }"), "{}", asked(&[main, one]));
+        let text = asked(&[main, one, other]);
+        assert!(
+            text.contains("#? M144 = { target = \"\"") && text.contains("calls = 9002 or 9005 in place"),
+            "{text}"
+        );
+        // What stands in the blocks of a program is no comment of it.
+        let text = asked(&[main, ("b.nc", "O9002\nM145\nG4 P144.\nM99\n")]);
+        assert!(!text.contains("#? M144 = { calls"), "{text}");
+    }
 }
