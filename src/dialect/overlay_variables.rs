@@ -18,9 +18,13 @@ impl Overlay {
     pub(super) fn keep_variables(&mut self, dialect: &mut Dialect) {
         let Some(present) = self.profile.variables.clone() else { return };
         let mut found: Vec<VariableClass> = Vec::new();
-        let mut count = 0;
+        let (mut count, mut missing) = (0, Vec::new());
         for text in &present {
             let Some(run) = self.runs("variables", std::slice::from_ref(text)).pop() else { continue };
+            if run.is_missing() {
+                missing.push((run, text));
+                continue;
+            }
             let classes = match &run.kind {
                 None => narrowed(&dialect.variables, &run),
                 Some(kind) => self.widened(dialect, &run, kind, text),
@@ -56,6 +60,12 @@ impl Overlay {
                 break;
             }
             found.extend(classes);
+        }
+        for (run, text) in missing {
+            if found.iter().any(|class| run.meets(class)) {
+                let what = format!("'{text}' names variables that are there by other entries");
+                self.fault(&format!("variables:{text}"), what, "name each variable once".into());
+            }
         }
         dialect.variables = found;
     }

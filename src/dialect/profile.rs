@@ -236,7 +236,7 @@ pub struct VariableRun {
     pub last: u32,
     /// True for a letter variable.
     pub letter: bool,
-    /// What it is, where the table has no such variables: `common` or `retained`.
+    /// What it is, where the table has no such variables: `common` or `retained`; `none` where the machine has none of these.
     pub kind: Option<String>,
 }
 
@@ -253,6 +253,11 @@ impl VariableRun {
             one(to.trim()).or_else(|| Some((name, to.trim().parse().ok()?, letter)))?;
         let fits = name == other && letter == other_letter && first <= last;
         fits.then(|| Self { name: name.into(), first, last, letter, kind })
+    }
+
+    /// True of variables that the machine does not have.
+    pub fn is_missing(&self) -> bool {
+        self.kind.as_deref() == Some("none")
     }
 
     /// True where the run holds the variable.

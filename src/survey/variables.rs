@@ -6,7 +6,7 @@ use super::filled::{ASKS, TELLS, after_dialect, spliced};
 use super::shape::{NAMED, Places};
 use crate::canon::{Op, Role};
 use crate::diag::Asks;
-use crate::dialect::{Control, Machine, Profile, Question};
+use crate::dialect::{Control, Machine, Profile, Question, VariableRun};
 use crate::ir::Module;
 use crate::library::ProgramReport;
 use serde::Serialize;
@@ -54,10 +54,16 @@ pub(super) fn asked(
     if !source.classes().iter().any(|class| class.name == name && class.class == "retained") {
         return Vec::new();
     }
+    // Those of which the profile says that they are not there.
+    let said = source.profile().variables.iter().flatten().filter_map(|text| VariableRun::read(text));
+    let missing: Vec<VariableRun> = said.filter(VariableRun::is_missing).collect();
     let mut found: BTreeMap<u32, (BTreeSet<usize>, Vec<String>)> = BTreeMap::new();
     for (at, program) in programs.iter().enumerate() {
         for finding in &program.diagnostics {
             let Some(Asks::Variable { number }) = finding.asks.as_deref() else { continue };
+            if missing.iter().any(|run| run.holds(name, *number, false)) {
+                continue;
+            }
             let (waiting, named) = found.entry(*number).or_default();
             waiting.insert(at);
             if named.len() < NAMED {
@@ -164,8 +170,8 @@ pub(super) fn asked_in(text: &str, survey: &Survey<'_>) -> String {
             if run.programs == 1 { "1 program".into() } else { format!("{} programs", run.programs) };
         let _ = writeln!(told, "{TELLS} {}: {programs}: {}", run.run(), run.places.join(", "));
     }
-    let about = "variables that the control's table does not have: take out what the machine does not have; 'common' for 'retained' \
-                 where they are empty after power-on";
+    let about = "variables that the control's table does not have: 'common' for 'retained' where they are empty after power-on, 'none' \
+                 where the machine does not have them";
     match profile.place("variables") {
         None => {
             let list = quoted(all(survey.controls[0], asked));
@@ -206,6 +212,23 @@ mod tests {
         assert_eq!(source(&text), text);
         let opened = text.replace("#? variables", "variables");
         assert!(!source(&opened).contains("#? variables"), "{}", source(&opened));
+    }
+
+    #[test]
+    fn what_the_machine_does_not_have_is_asked_no_more() {
+        let asked = source("dialect = \"fanuc\"\n");
+        let said = asked.replace("#? variables", "variables");
+        let said =
+            said.replace("#404-#472 retained", "#404-#472 none").replace("#98000 retained", "#98000 none");
+        let text = source(&said);
+        assert!(!text.contains("#? \"#") && !text.contains("#? variables"), "{text}");
+        let control = Control::from_profile(&text).unwrap();
+        let there = |number: u32| control.variable_class("#", number).is_some();
+        assert!(there(500) && there(901011) && !there(404) && !there(98000));
+        let twice =
+            Control::from_profile("dialect = \"fanuc\"\nvariables = [\"#500-#999\", \"#600 none\"]\n");
+        let faults = twice.map(|_| ()).unwrap_err();
+        assert!(faults[0].message.contains("'#600 none' names variables that are there"), "{faults:?}");
     }
 
     /// What the machine has under another setting is a question of that setting.
