@@ -1,6 +1,6 @@
 //! NC words.
 
-use super::{means, refuses, rests_on, reviews, told};
+use super::{lowered, means, refuses, rests_on, reviews, told};
 use crate::diag::Code;
 
 #[test]
@@ -105,6 +105,25 @@ fn lathe_programs() {
 fn blocks_that_say_things_twice() {
     means("fanuc", "G0G1X1.", "0: nc motion.linear axis.x=1 | stray");
     reviews("fanuc", "G0G1X1.", &[Code::GroupTwice]);
+    let second = |source: &str| {
+        let lowered = lowered("fanuc", source);
+        let mut all = lowered.programs.iter().flat_map(|(_, findings)| findings);
+        all.find(|finding| finding.code == Code::GroupTwice).map(|finding| finding.message.to_string())
+    };
+    let says = |code: &str, does: &str| {
+        Some(format!(
+            "{code} is the second code of its group in this block, and counts, as the later one: {does}"
+        ))
+    };
+    assert_eq!(second("G91G28Z0G90"), says("G90", "the axis goes to Z0 of the work first, then home"));
+    assert_eq!(second("G91G90G30X0.Y#1"), says("G90", "the axes go to X0 Y of the work first, then home"));
+    assert_eq!(
+        second("G90G28Z5.G91"),
+        says("G91", "the axis moves by Z5 from where the tool stands first, then home")
+    );
+    assert_eq!(second("G91G53Z-10.G90"), says("G90", "the axis goes to Z-10 of the machine"));
+    let plain = "G90 is the second code of its group in this block: the second one counts";
+    assert_eq!(second("G91G0Z0G90").as_deref(), Some(plain));
     reviews("fanuc", "G80G0X1.", &[]);
     means("fanuc", "X1.X2.", "0: nc axis.x=2 | stray");
     reviews("fanuc", "X1.X2.", &[Code::WordTwice]);

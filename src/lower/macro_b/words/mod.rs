@@ -8,5 +8,6 @@ mod named_by;
 mod nc;
 mod roles;
 mod turning;
+mod twice;
 mod unknown;
 mod value;

@@ -74,7 +74,7 @@ impl<'a> Lowering<'a> {
             self.motion.feed = Some(row.op).filter(|_| same);
         }
         let mut nc = Nc { items: Vec::with_capacity(words.len() + 1) };
-        let mut seen = Seen::default();
+        let (mut seen, mut seconds) = (Seen::default(), Vec::new());
         let stops = self.stops_with_alarm(&codes);
         let mut next = codes.iter();
         for &(word, span) in words {
@@ -83,7 +83,8 @@ impl<'a> Lowering<'a> {
                     Some(id) => {
                         if let Some(&(_, row)) = next.as_slice().first().filter(|(found, _)| *found == id) {
                             next.next();
-                            self.operation(id, row, word, span, &mut nc, &mut seen);
+                            let noted = (&mut seen, &mut seconds);
+                            self.operation(id, row, word, span, &mut nc, noted);
                         }
                     }
                     None => self.computed_code(word, span, &mut nc, &mut seen),
@@ -92,6 +93,7 @@ impl<'a> Lowering<'a> {
                 self.word(word, span, &codes, &mut nc, &mut seen);
             }
         }
+        self.tell_seconds(&nc, seconds);
         self.check_lead(&nc, &codes, site.span);
         self.radius_by_length_word(&mut nc, site.span);
         self.check_m_codes(&seen, site.span);
@@ -189,7 +191,7 @@ impl<'a> Lowering<'a> {
         word: &Word,
         span: Span,
         nc: &mut Nc,
-        seen: &mut Seen,
+        (seen, seconds): (&mut Seen, &mut Vec<Second<'a>>),
     ) {
         // What it ends is read nowhere here.
         if row.op == Op::DataInputEnd {
@@ -198,9 +200,7 @@ impl<'a> Lowering<'a> {
         let group = row.op.group();
         seen.m_codes += u32::from(word.letter == 'M');
         if group != Group::OneShot && seen.group(group) && drop_clashing(nc, row.op) {
-            let message =
-                format!("{} is the second code of its group in this block: the second one counts", row.code);
-            self.findings.add(Diagnostic::new(Code::GroupTwice, span, message));
+            seconds.push(Second { row, span });
         }
         if matches!(group, Group::Motion | Group::Cycle) {
             let depends = self.codes.get(id).is_some_and(|code| code.depends);
@@ -339,6 +339,12 @@ fn drop_clashing(nc: &mut Nc, op: Op) -> bool {
         other.group() != op.group() || cancel || cooling
     });
     before != nc.items.len()
+}
+
+/// A code of a group of which the block has another one before it.
+pub(super) struct Second<'a> {
+    pub row: &'a CodeMeaning,
+    pub span: Span,
 }
 
 /// What a block has said already.
