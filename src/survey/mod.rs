@@ -1,6 +1,6 @@
 //! One look over a library before it is converted: what it is, and what must be known of its machines.
 //!
-//! Nothing is written and nothing is run. What the conversion would ask stands here once each, with how many programs wait for
+//! Nothing is written and nothing is judged by running it. What the conversion would ask stands here once each, with how many programs wait for
 //! it, and what would become of the library now, and once all of it is answered.
 
 mod answered;
@@ -25,6 +25,7 @@ mod speeds;
 mod start;
 mod text;
 mod there;
+mod tried;
 mod unseen;
 mod variables;
 mod words;
@@ -95,6 +96,8 @@ pub struct Survey<'a> {
     rest: Conversion,
     /// What is found in its programs once all that was asked before is answered, again and again; none if no target was named.
     then: Vec<Conversion>,
+    /// The machines as they are then.
+    best: Option<[Control; 2]>,
     /// What would become of it now.
     pub now: Outcomes,
     /// What would become of it once all that profiles can answer is answered; none if no target was named.
@@ -201,6 +204,7 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         needs,
         rest: conversion,
         then: Vec::new(),
+        best: None,
         now,
         answered: None,
         folder: Told::default(),
@@ -208,6 +212,10 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     };
     if target.is_some() {
         let _ = (0..ROUNDS).find(|_| !survey.answer(&places));
+        let answered = survey.best.take();
+        if let (Some(last), Some([source, target])) = (survey.then.last_mut(), answered) {
+            tried::add_facts(inputs, last, [&source, &target]);
+        }
     }
     survey
 }
@@ -221,14 +229,15 @@ impl Survey<'_> {
     /// Converts the library with all answered that was asked so far. True if that asks something new.
     fn answer(&mut self, places: &Places<'_>) -> bool {
         let then = [true, false].map(|chosen| {
-            let [source, target] = answered::controls(self, chosen);
-            plain(self.inputs, &source, &target)
+            let controls = answered::controls(self, chosen);
+            (plain(self.inputs, &controls[0], &controls[1]), controls)
         });
-        let best = then.into_iter().min_by_key(|then| {
+        let best = then.into_iter().min_by_key(|(then, _)| {
             let Outcomes { refused, review, .. } = Outcomes::of(&then.programs);
             (refused, review)
         });
-        let Some(best) = best else { return false };
+        let Some((best, controls)) = best else { return false };
+        self.best = Some(controls);
         self.answered = Some(Outcomes::of(&best.programs));
         self.stays = reasons(&best.programs);
         let known = self.asked_so_far();

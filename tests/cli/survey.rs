@@ -595,3 +595,18 @@ fn a_code_that_may_call_a_program_of_the_library_is_asked_for_it() {
     let asked = shop.read("s.toml");
     assert!(asked.contains("#? G100 = { target = \"\"") && !asked.contains("M86 ="), "{asked}");
 }
+
+/// That the turret turns beside a move only a run shows.
+#[test]
+fn what_only_a_run_shows_is_asked_in_the_first_round() {
+    let shaft =
+        "O1\nG21 G40 G99\nT0101\nG97 S500 M3\nG0 X50. Z2.\nG1 Z-20. F.2\nG0 X60. Z5. T0202\nG28 U0 W0\nM30\n";
+    let shop = Shop::with(&[("lib/shaft.nc", shaft)]);
+    let run = shop.run("survey lib --from fanuc --to haas --write m.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    for profile in ["m.toml", "m-to-haas.toml"] {
+        let text = shop.read(profile);
+        let asks = |fact: &str| text.contains(&format!("#: \"machine:lathe.{fact}\""));
+        assert!(asks("tool.beside.move"), "{profile}: {text}");
+    }
+}
