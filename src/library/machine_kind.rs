@@ -45,6 +45,10 @@ impl Signs {
         self.lathe >= ENOUGH && self.lathe > self.mill
     }
 
+    fn are_none(&self) -> bool {
+        self.mill == 0 && self.lathe == 0
+    }
+
     fn is_mill(&self) -> bool {
         self.mill > 0 && self.mill >= self.lathe
     }
@@ -143,6 +147,9 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
     let signs: Vec<Signs> =
         programs.map(|(program, found)| Signs::of(program, found, bytes(program), source)).collect();
     if !signs.iter().any(Signs::is_lathe) {
+        if !told && signs.iter().all(Signs::are_none) {
+            ask(module, source, found);
+        }
         return;
     }
     let edges = edges(module);
@@ -182,6 +189,32 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
         all.for_each(say_of_two_machines);
     }
 }
+
+/// Asks the kind of machine of programs that may be a lathe's, in a library without any sign: they move along X and Z alone, and have a code that
+/// is a feed mode on a lathe, where a mill has it for its drilling cycles, and no such cycle.
+fn ask(module: &Module, source: &Control, found: &mut [Vec<Diagnostic>]) {
+    let asked: Vec<usize> = (0..module.programs.len()).filter(|at| is_open(&module.programs[*at])).collect();
+    if asked.is_empty() || super::kind::as_lathe(source).is_none() {
+        return;
+    }
+    for at in asked {
+        let finding = Diagnostic::new(Code::Conditional, module.programs[at].site.span, OPEN);
+        found[at].push(finding.with_help(OPEN_HELP));
+    }
+}
+
+/// True for a program that a lathe may have, as it has codes that mean other things there.
+fn is_open(program: &Program) -> bool {
+    let ncs = || program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc());
+    let any = |is: &dyn Fn(Op) -> bool| ncs().any(|nc| nc.ops().any(is));
+    let feeds = any(&|op| matches!(op, Op::ReturnInitial | Op::ReturnR));
+    let mills = any(&|op| op.is_cycle() || matches!(op, Op::PlaneXy | Op::PlaneYz));
+    feeds && !mills && [Role::X, Role::Z].iter().all(|role| ncs().any(|nc| has(nc, *role)))
+}
+
+const OPEN: &str = "nothing in the library shows whether it is of a mill or of a lathe; this program moves along X and Z alone, and has G codes that are other things on \
+                    a lathe: it is read as a mill's";
+const OPEN_HELP: &str = "say it in the machine profile: machine = \"mill\" or \"lathe\"";
 
 const EITHER: &str =
     "the library has programs of lathes and of mills, and nothing in this one shows which of them it is for";

@@ -55,14 +55,18 @@ pub(super) fn with_machine(
 ) -> String {
     let said = control.profile();
     let lathe = lathe(survey, side);
-    let kind =
-        lathe.as_deref().unwrap_or("machine = \"mill\" or \"lathe\" # some programs look like a lathe's");
+    let kind = lathe.as_deref().unwrap_or(if survey.shape.lathe > 0 {
+        "machine = \"mill\" or \"lathe\" # some programs look like a lathe's"
+    } else {
+        "machine = \"mill\" or \"lathe\" # no program shows which of them it is for"
+    });
     let Ok(profile) = Profile::read(text) else { return text.to_owned() };
     let units = format!(
         "units = \"inch\" or \"metric\" # what its programs are in where no code says so, and its settings{unit}"
     );
     let axes = super::variables::axes_line(survey, control);
-    let mixed = survey.shape.lathe > 0 && said.machine.is_none();
+    let open = survey.is_told("machine = \"mill\" or \"lathe\"");
+    let mixed = (survey.shape.lathe > 0 || open) && said.machine.is_none();
     // Programs are given variables on the machine that they go to.
     let gives = side == Side::Target && survey.takes_registers();
     let all = [

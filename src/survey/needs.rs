@@ -91,7 +91,7 @@ impl Survey<'_> {
     }
 
     /// True where help of a finding names this line of a profile.
-    fn is_told(&self, words: &str) -> bool {
+    pub(super) fn is_told(&self, words: &str) -> bool {
         self.has_help(&|help| help.contains(words))
     }
 

@@ -228,3 +228,24 @@ fn a_word_of_the_older_form_asks_for_its_parameter() {
         shop.read("out/a.nc")
     );
 }
+
+/// X and Z alone, and a feed mode of a lathe: a mill has it for its drilling cycles.
+#[test]
+fn a_library_that_shows_no_kind_is_asked_it() {
+    let turned = "O1\nG98\nG20\nG80\nG40\nG54\nM3 S2000 F10.\nG0\nX1.7\nZ.05\nG1\nX-.05\nM30\n";
+    let shop = Shop::with(&[("lib/o1.nc", turned)]);
+    let run = shop.run("convert lib --from haas --to fanuc --out out --no-verify");
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(run.out.contains("nothing in the library shows whether"), "{}", run.out);
+    let survey = shop.run("survey lib --from haas --to fanuc --write m.toml");
+    assert_eq!(survey.code, 0, "{}", survey.err);
+    let asked = "#? machine = \"mill\" or \"lathe\" # no program shows which of them it is for";
+    assert!(shop.read("m.toml").contains(asked), "{}", shop.read("m.toml"));
+    shop.write("k.toml", b"dialect = \"haas\"\nmachine = \"mill\"\n");
+    let run = shop.run("convert lib --machine k.toml --to fanuc --out told --no-verify");
+    assert!(!run.out.contains("nothing in the library shows whether"), "{}", run.out);
+    // A program that drills has the code for its holes.
+    shop.write("lib/o1.nc", turned.replace("G0\n", "G81 X1. Z-1. R.1\nG80\nG0\n").as_bytes());
+    let run = shop.run("convert lib --from haas --to fanuc --out out --no-verify");
+    assert!(!run.out.contains("nothing in the library shows whether"), "{}", run.out);
+}
