@@ -192,6 +192,11 @@ impl Sys {
         )
     }
 
+    /// True for a clock that runs on while moves and waits are made: set and read early, it has none of their time.
+    pub const fn runs_on(self) -> bool {
+        matches!(self, Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds)
+    }
+
     /// True for a length or a position, which is read and written in the unit in force.
     pub const fn is_length(self) -> bool {
         use Sys::*;

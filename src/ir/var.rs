@@ -40,6 +40,11 @@ impl Class {
         matches!(self, Class::Local | Class::Common | Class::Retained)
     }
 
+    /// True where people and devices outside the programs see the variable, by its number.
+    pub const fn is_numbered(self) -> bool {
+        matches!(self, Class::Common | Class::Retained | Class::Global | Class::Parametric)
+    }
+
     /// True where other programs see the variable.
     pub const fn shared(self) -> bool {
         !matches!(self, Class::Local | Class::Temp)

@@ -39,7 +39,7 @@ Write it without these characters."
 Check that the operator still understands it, or shorten it in the source."
 
     "0599" Internal Error "fault of macroglot itself"
-"A check that macroglot makes of its own work failed: the program it was about to write breaks a rule of its intermediate form or of the target's grammar. Nothing of it was written, nor of what calls it; the other programs are written and compared as usual.
+"A check that macroglot makes of its own work failed: the program that it was about to write breaks a rule of its intermediate form or of the target's grammar. That program was not written, and no program that calls it. All others were, and are compared as usual.
 
 Please report the program with this message."
         }

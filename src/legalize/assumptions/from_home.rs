@@ -214,7 +214,7 @@ impl Rules<'_> {
         }
     }
 
-    /// What is known of what a call runs; none of what is not in the library.
+    /// What is known of the program that a call runs; none if the library does not have it.
     fn ends(&self, call: &Call) -> Option<Ends> {
         match &call.callee {
             Callee::Block(entry) => Some(self.parts.get(&(self.index, *entry)).copied().unwrap_or_default()),

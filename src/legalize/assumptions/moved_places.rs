@@ -100,7 +100,7 @@ pub(super) fn without_offset(nc: &Nc) -> bool {
     nc.moves() && !home && tool_word::takes_offset(nc) == Some(true)
 }
 
-/// True where numbers are inches; none where neither the program nor the source's profile says it.
+/// True if numbers are inches; none if neither the program nor the source's profile says it.
 fn inch(state: &Modal, source: &Control) -> Option<bool> {
     match state.op(Group::Units) {
         Some(op) => Some(op == Op::Inch),

@@ -5,19 +5,14 @@
 //! of the limit, and one before each write of a common variable that moves came before and that the program does not read itself.
 //! A wait computes nothing. Counter-example: a count that the program reads itself, which nobody else has to see in time.
 
-use crate::ir::{Block, Class, Expr, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, Var};
+use crate::ir::{Block, Expr, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, Var};
 use std::collections::BTreeSet;
-
-/// The class of what others see.
-fn is_common(var: Var) -> bool {
-    matches!(var.class, Class::Common | Class::Retained | Class::Global | Class::Parametric)
-}
 
 /// The common variables that a program reads.
 fn read(program: &Program) -> BTreeSet<Var> {
     let mut found = BTreeSet::new();
     let mut look = |e: &Expr| {
-        e.walk(&mut |e| found.extend(var_of(e).filter(|var| is_common(*var))));
+        e.walk(&mut |e| found.extend(var_of(e).filter(|var| var.class.is_numbered())));
     };
     for block in &program.blocks {
         block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut look));
@@ -36,7 +31,7 @@ fn var_of(e: &Expr) -> Option<Var> {
 /// The common variable that a statement writes.
 fn written(stmt: &Stmt) -> Option<Var> {
     match stmt.kind.target() {
-        Some(Place::Var(var)) => Some(*var).filter(|var| is_common(*var)),
+        Some(Place::Var(var)) => Some(*var).filter(|var| var.class.is_numbered()),
         _ => None,
     }
 }

@@ -166,7 +166,7 @@ fn look(block: &mut Block, waited: &mut bool, limits: bool, under: &mut Under<'_
 
 fn is_early(kind: &StmtKind, limits: bool) -> bool {
     let switches = matches!(kind.target(), Some(Place::System(Sys::Output | Sys::OutputInverted, _)));
-    let sets = matches!(kind.target(), Some(Place::System(state, _)) if runs_on(*state));
+    let sets = matches!(kind.target(), Some(Place::System(state, _)) if state.runs_on());
     let mut early = !limits && (switches || sets);
     kind.exprs(&mut |e| early |= reads(e, limits));
     early
@@ -179,17 +179,12 @@ fn reads(e: &Expr, limits: bool) -> bool {
             Expr::System(state, _) if limits => state.is_read_early(),
             // The tool in the spindle is that of the last change that was made, not of one that was read.
             Expr::System(state, _) => {
-                state.is_changed_by_moves() || *state == Sys::ActiveTool || runs_on(*state)
+                state.is_changed_by_moves() || *state == Sys::ActiveTool || state.runs_on()
             }
             _ => false,
         }
     });
     found
-}
-
-/// True for a clock that runs on while moves and waits are made: set and read early, it has none of their time.
-fn runs_on(state: Sys) -> bool {
-    matches!(state, Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds)
 }
 
 fn wait(site: &SourceInfo, limits: bool, out: &mut Stmts) {

@@ -69,9 +69,8 @@ fn uneven(nc: &Nc, target: &Control) -> bool {
 /// True for a block that tells a peck drill a wait, for which the target's code has no word.
 fn waits(nc: &Nc, (source, target): (&Control, &Control)) -> bool {
     let Some(op) = nc.ops().find(|op| pecks(*op)) else { return false };
-    let [own, others] = [source, target].map(|control| takes(control, op, Role::CycleDwell));
     let told = nc.word(Role::CycleDwell).is_some_and(|wait| wait.constant() != Some(0.0));
-    told && own && !others && !needless_waits::is_none(op, source)
+    told && needless_waits::waits(op, source) && !takes(target, op, Role::CycleDwell)
 }
 
 /// True where all numbers of a cycle's block are known.

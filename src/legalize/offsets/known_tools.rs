@@ -7,7 +7,7 @@
 //! Counter-example: `T1`, `M0`, `T1`, where the operator puts another tool in at the stop.
 
 use crate::canon::{Op, Role, Sys};
-use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::dataflow::Same;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::analysis::{Cfg, calls_of};
 use crate::ir::{
@@ -21,27 +21,17 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A block of a program.
 type Place = (usize, BlockId);
 
-/// The tool in the spindle, where it is known.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Spindle(Option<f64>);
+/// The tool in the spindle, if it is known.
+type Spindle = Same<f64>;
 
-impl Lattice for Spindle {
-    fn join(&mut self, other: &Self) -> bool {
-        let joined = Spindle(self.0.filter(|_| *self == *other));
-        std::mem::replace(self, joined) != joined
-    }
-}
-
-impl Spindle {
-    fn step(&mut self, stmt: &Stmt) {
-        match &stmt.kind {
-            StmtKind::Nc(nc) if stmt.site.skip.is_none() && changes(nc) => {
-                self.0 = nc.word(Role::Tool).and_then(Expr::constant);
-            }
-            StmtKind::Nc(nc) if !may_change(nc) => {}
-            StmtKind::Comment | StmtKind::Assign { .. } => {}
-            _ => self.0 = None,
+fn step(spindle: &mut Spindle, stmt: &Stmt) {
+    match &stmt.kind {
+        StmtKind::Nc(nc) if stmt.site.skip.is_none() && changes(nc) => {
+            spindle.0 = nc.word(Role::Tool).and_then(Expr::constant);
         }
+        StmtKind::Nc(nc) if !may_change(nc) => {}
+        StmtKind::Comment | StmtKind::Assign { .. } => {}
+        _ => spindle.0 = None,
     }
 }
 
@@ -111,7 +101,7 @@ fn read(module: &mut Module, spindles: &OverCalls<Spindle>, tools: &Tools) -> bo
                         });
                     });
                 }
-                spindle.step(stmt);
+                step(&mut spindle, stmt);
             }
         }
     }
@@ -173,9 +163,9 @@ struct Tools {
 impl Tools {
     fn enter(&self, place: Place, spindle: &mut Spindle) {
         if let Some(tool) = self.past.get(&place) {
-            *spindle = Spindle(Some(*tool));
+            *spindle = Same(Some(*tool));
         } else if place.1 == BlockId(0) && self.called.get(place.0) == Some(&true) {
-            *spindle = Spindle(None);
+            *spindle = Same(None);
         }
     }
 }
@@ -184,12 +174,12 @@ impl Follow for Tools {
     type Known = Spindle;
 
     fn outside(&self, _: usize) -> Spindle {
-        Spindle(None)
+        Same(None)
     }
 
     fn stmts(&self, place: Place, block: &Block, spindle: &mut Spindle) {
         self.enter(place, spindle);
-        block.stmts.iter().for_each(|stmt| spindle.step(stmt));
+        block.stmts.iter().for_each(|stmt| step(spindle, stmt));
     }
 
     fn returned(&self, _: usize, call: &Call, before: &Spindle, after: &mut Spindle) {
@@ -208,8 +198,8 @@ fn keeping(module: &Module) -> BTreeSet<ProgramName> {
     let mut keep: BTreeSet<ProgramName> = module.programs.iter().filter_map(|p| p.name.clone()).collect();
     loop {
         let leaves = |stmt: &Stmt| {
-            let mut spindle = Spindle(Some(0.0));
-            spindle.step(stmt);
+            let mut spindle = Same(Some(0.0));
+            step(&mut spindle, stmt);
             spindle.0 == Some(0.0)
         };
         let stays = |call: &Call| match &call.callee {

@@ -9,7 +9,7 @@ use super::tool_word::ADDRESS_T;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::dataflow::{Lattice, Same};
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::analysis::tool_word::ToolWord;
 use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind};
@@ -23,29 +23,19 @@ pub fn concerns(source: &Control, target: &Control) -> bool {
     by_word(target) && !by_word(source) && !target.is(Question::ToolWordSelectsLength)
 }
 
-/// The tool that waits for its change, where it is one constant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Waits(Option<f64>);
+/// The tool that waits for its change, if it is one constant.
+type Waits = Same<f64>;
 
-impl Lattice for Waits {
-    fn join(&mut self, other: &Self) -> bool {
-        let joined = Waits(self.0.filter(|_| *self == *other));
-        std::mem::replace(self, joined) != joined
+fn step(waits: &mut Waits, stmt: &Stmt) {
+    let StmtKind::Nc(nc) = &stmt.kind else { return };
+    let before = *waits;
+    if nc.has(Op::ToolChange) || nc.items.iter().any(|item| matches!(item, NcItem::Code('M', _))) {
+        waits.0 = None;
+    } else if let Some(tool) = nc.word(Role::Tool) {
+        waits.0 = tool.constant();
     }
-}
-
-impl Waits {
-    fn step(&mut self, stmt: &Stmt) {
-        let StmtKind::Nc(nc) = &stmt.kind else { return };
-        let before = *self;
-        if nc.has(Op::ToolChange) || nc.items.iter().any(|item| matches!(item, NcItem::Code('M', _))) {
-            self.0 = None;
-        } else if let Some(tool) = nc.word(Role::Tool) {
-            self.0 = tool.constant();
-        }
-        if stmt.site.skip.is_some() {
-            self.join(&before);
-        }
+    if stmt.site.skip.is_some() {
+        waits.join(&before);
     }
 }
 
@@ -55,11 +45,11 @@ impl Follow for Rules {
     type Known = Waits;
 
     fn outside(&self, _: usize) -> Waits {
-        Waits(None)
+        Same(None)
     }
 
     fn stmts(&self, _: (usize, BlockId), block: &Block, known: &mut Waits) {
-        block.stmts.iter().for_each(|stmt| known.step(stmt));
+        block.stmts.iter().for_each(|stmt| step(known, stmt));
     }
 
     fn lose(&self, known: &mut Waits) {
@@ -78,11 +68,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let known = OverCalls::of(module, &Rules);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (id, block) in program.ids().zip(&mut program.blocks) {
-            let mut waits = known.at(index, id).copied().unwrap_or(Waits(None));
+            let mut waits = known.at(index, id).copied().unwrap_or(Same(None));
             let mut gone = Vec::new();
             for (at, stmt) in block.stmts.iter_mut().enumerate() {
                 let before = waits;
-                waits.step(stmt);
+                step(&mut waits, stmt);
                 let span = stmt.site.span;
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 match (nc.has(Op::ToolChange), nc.word(Role::Tool), before.0) {

@@ -7,7 +7,7 @@
 use crate::canon::{Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Class, Comment, Module, PrintPart, Program, Stmt, StmtKind, Var, flag_of};
+use crate::ir::{Comment, Module, PrintPart, Program, Stmt, StmtKind, Var, flag_of};
 use crate::legalize::Context;
 use crate::legalize::registers::names::{OF, numbered_name, whose};
 use crate::text::{Span, VariableName, variable_names, variable_to_set};
@@ -67,9 +67,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 /// The variables that all programs see and that moved.
 fn of_library(prefixes: &[&str], context: &Context<'_>) -> Names {
-    let shared = context.registers.of.iter().filter(|(var, _)| {
-        matches!(var.class, Class::Common | Class::Retained | Class::Global | Class::Parametric)
-    });
+    let shared = context.registers.of.iter().filter(|(var, _)| var.class.is_numbered());
     let named = shared.filter_map(|(var, register)| {
         let own = numbered_name(*var, context.source)?;
         let name = format!("{}{}", register.name, register.number);

@@ -7,7 +7,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{VarSet, Vars};
-use crate::ir::{Class, Expr, Module, Place, Program, StmtKind, Var};
+use crate::ir::{Expr, Module, Place, Program, StmtKind, Var};
 use crate::legalize::Context;
 use crate::legalize::by_program::look_at_each;
 use crate::legalize::registers::map::Register;
@@ -27,7 +27,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             return None;
         }
         let set_here =
-            !is_shared(var.class) || written.contains(*var) || context.registers.is_known(var, register);
+            !var.class.is_numbered() || written.contains(*var) || context.registers.is_known(var, register);
         (!set_here).then(|| name_of(*var, module, context.source)).flatten().map(|name| (name, register))
     };
     let mut all = VarSet::default();
@@ -137,9 +137,4 @@ pub(super) fn written_by(program: &Program) -> Vars {
         }
     }
     written
-}
-
-/// True for what is not a program's own.
-pub(super) fn is_shared(class: Class) -> bool {
-    matches!(class, Class::Common | Class::Retained | Class::Global | Class::Parametric)
 }

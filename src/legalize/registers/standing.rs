@@ -6,7 +6,7 @@
 //! another one is asked once. Counter-example: `#714` that becomes `#109`, and `O9810`, which reads `#714`.
 
 use super::names::name_of;
-use super::outside::{Moved, in_words, is_shared, named, read, written_by};
+use super::outside::{Moved, in_words, named, read, written_by};
 use super::results::is_result;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Side};
@@ -63,7 +63,7 @@ fn moved(module: &Module, runs_with: &dyn Fn(usize) -> bool, context: &mut Conte
         let mut moves = Vec::new();
         let pinned =
             |var: &Var| is_result(*var) && context.target.standing_results().of(var.number).is_some();
-        for var in vars.into_iter().filter(|var| is_shared(var.class) && !pinned(var)) {
+        for var in vars.into_iter().filter(|var| var.class.is_numbered() && !pinned(var)) {
             let there = names.entry(var).or_insert_with(|| {
                 let register = context.registers.of.get(&var)?;
                 let is_own = context.registers.is_own(&var, register);
@@ -123,7 +123,7 @@ fn results(module: &Module, callers: &[usize], context: &mut Context<'_>) {
         };
         let names: Vec<String> = read(program)
             .iter()
-            .filter(|var| is_shared(var.class) && !is_written(var))
+            .filter(|var| var.class.is_numbered() && !is_written(var))
             .filter(|var| !is_result(*var) || context.target.standing_results().of(var.number).is_none())
             .filter_map(|var| name_of(var, module, context.source))
             .collect();

@@ -44,6 +44,18 @@ impl Lattice for bool {
     }
 }
 
+/// One value on every way; none if there is none, or another one on some way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Same<T>(pub Option<T>);
+
+impl<T: Copy + PartialEq> Lattice for Same<T> {
+    fn join(&mut self, other: &Self) -> bool {
+        let before = *self;
+        self.0 = self.0.filter(|_| self == other);
+        *self != before
+    }
+}
+
 /// What holds on every way.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Every<T>(pub BTreeSet<T>);

@@ -256,3 +256,15 @@ fn finds_what_chains_of_calls_bring() {
         }
     }
 }
+
+#[test]
+fn one_value_is_known_if_every_way_has_it() {
+    let joined = |one: Option<u32>, two: Option<u32>| {
+        let mut known = Same(one);
+        (known.join(&Same(two)), known.0)
+    };
+    assert_eq!(joined(Some(1), Some(1)), (false, Some(1)));
+    assert_eq!(joined(Some(1), Some(2)), (true, None));
+    assert_eq!(joined(Some(1), None), (true, None));
+    assert_eq!(joined(None, Some(1)), (false, None));
+}
